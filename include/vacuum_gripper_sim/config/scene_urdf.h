@@ -1,0 +1,22 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "vacuum_gripper_sim/core/rigid_surface.h"
+
+namespace vacuum_gripper_sim {
+
+/// A link of the scene: a tf frame with rigid surfaces fixed to it.
+struct SceneLink {
+  std::string name;                    ///< Link name = tf frame.
+  std::vector<RigidSurface> surfaces;  ///< X_WS holds the pose in the link's frame, X_LS.
+};
+
+/** Reads the collision geometry of a URDF with urdfdom: box, sphere, cylinder. Links without
+ collision elements are left out.
+ @throws std::invalid_argument naming the link and the reason: not a URDF, a size that is not finite
+   or not positive, a mesh (not supported yet), no collision geometry at all. */
+std::vector<SceneLink> ReadSceneUrdf(const std::string& xml);
+
+}  // namespace vacuum_gripper_sim

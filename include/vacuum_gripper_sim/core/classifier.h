@@ -1,0 +1,58 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "vacuum_gripper_sim/core/cavity_surface.h"
+
+namespace vacuum_gripper_sim {
+
+/// The five zones of [Bernardin, Sec. III-B], numbered as on `~surface_points`.
+enum class Zone : std::uint8_t {
+  kStrictlyOutside = 0,  ///< Yellow: open to the ambient.
+  kOuterBorder = 1,      ///< Purple: the first contact points met from outside.
+  kInActiveContact = 2,  ///< Red.
+  kInnerBorder = 3,      ///< Blue: the first contact points met from inside.
+  kStrictlyInside = 4,   ///< Green: open to the port only.
+};
+inline constexpr int kNumZones = 5;
+
+/// What the classifier says of the cavity surface.
+struct Classification {
+  double bottleneck_gap{0.0};  ///< g*: widest gap that leads from port to rim; < 0: loaded ring. [m]
+  std::vector<Zone> zones;     ///< A zone a point.
+  std::vector<bool> wet;       ///< The points that the cavity's pressure acts on if it is sealed.
+  std::array<std::uint32_t, kNumZones> zone_counts{};
+};
+
+/** Decides where the cavity ends and how wide the widest way out is.
+
+ [Bernardin, Algorithm 1] floods the surface from its border through the points that are not in
+ contact; what remains is the cavity. Here the same flood runs from the border *and* from the port
+ in order of decreasing opening phi (a watershed with two seeds):
+
+     phi_i = gap_i >= 0 where point i carries no contact force,
+     phi_i = -c lambda_i / a_i < 0 where it does (c > 0 any compliance, [m/Pa]).
+
+ The bottleneck g* is the largest value such that a path of points with phi >= g* joins port and
+ border. A negative g* says that a loaded ring closes the cavity; the seal's tolerance is compared
+ with g* by the caller, so it moves neither the cavity's area nor the zones' borders.
+
+ Wet is what the port's flood owns, loaded or not (a contact that also carries suction gives the
+ same shape and the same force on the mount), except trapped pockets: open points (phi > open_gap)
+ that reach neither port nor border through open points. A pocket keeps the air that it closed over,
+ that is `was_wet`.
+
+ Zones are those of the paper, with "in contact" meaning phi <= open_gap. When port and border are
+ joined by open points, no point is inside (Algorithm 1, line 28).
+
+ @param surface   The cavity surface, n points.
+ @param phi       Opening of each point, n. [m]
+ @param open_gap  Points with phi above this count as open. [m]
+ @param was_wet   The points that saw suction before this step, n; empty: none.
+ @throws std::invalid_argument if the sizes disagree. */
+Classification Classify(const CavitySurface& surface, const std::vector<double>& phi,
+                        double open_gap, const std::vector<bool>& was_wet = {});
+
+}  // namespace vacuum_gripper_sim

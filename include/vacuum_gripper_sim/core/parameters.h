@@ -1,0 +1,74 @@
+#pragma once
+
+#include <Eigen/Core>
+
+namespace vacuum_gripper_sim {
+
+/// Silicone as an isotropic elastic material.
+struct Material {
+  double young_modulus{338000.0};  ///< [Pa] > 0
+  double poisson_ratio{0.45};      ///< [-] 0 <= nu < 0.5
+  double density{1080.0};          ///< [kg/m^3] > 0
+};
+
+/// Rayleigh damping D = mass * M + stiffness * K.
+struct RayleighDamping {
+  double mass{0.0};        ///< alpha [1/s] >= 0
+  double stiffness{2e-3};  ///< beta [s] >= 0
+};
+
+enum class LinearSolverMethod { kDirect, kConjugateGradient };
+
+/// How the sparse systems with A are solved.
+struct LinearSolverParameters {
+  LinearSolverMethod method{LinearSolverMethod::kDirect};
+  double tolerance{1e-10};   ///< CG: bound on |r| / |b|. [-] > 0
+  int max_iterations{200};   ///< CG: iterations of one solve. >= 1
+  int refactor_interval{1};  ///< CG: steps that share one factorisation as preconditioner. >= 1
+};
+
+enum class ContactSolverMethod { kGaussSeidel, kActiveSet };
+
+/// How the mixed complementarity problem is solved.
+struct ContactParameters {
+  ContactSolverMethod method{ContactSolverMethod::kActiveSet};
+  double tolerance{1e-9};   ///< Bound on the complementarity residual. [m] > 0
+  int max_iterations{100};  ///< Gauss-Seidel sweeps or active-set changes. >= 1
+  double relaxation{1.0};   ///< Gauss-Seidel: over-relaxation factor, in (0, 2). [-]
+  double alarm_distance{5e-4};  ///< Nodes nearer than this after the free motion are candidates;
+                                ///< those that penetrate after the solve are added. [m] > 0
+};
+
+/// When the cavity counts as airtight.
+struct SealParameters {
+  double close_gap{1e-4};  ///< Sealed when the bottleneck gap falls below this. [m] > 0
+  double open_gap{1e-4};   ///< Lost when it rises above this. [m] >= close_gap
+  int max_rounds{1};       ///< Reclassifications within a step with a seal. >= 1
+  int ramp_increments{4};  ///< Pressure increments of a step without an earlier seal. >= 1
+};
+
+/// The pressure regulator.
+struct RegulatorParameters {
+  double default_pressure{-6000.0};  ///< Set-point of "on", gauge. [Pa] min_pressure .. 0
+  double min_pressure{-90000.0};     ///< Lowest set-point accepted, gauge. [Pa] < 0
+  double ramp_rate{100000.0};        ///< How fast the cavity follows the set-point. [Pa/s] > 0
+};
+
+/// Everything the Simulator needs besides mesh, surfaces and commands.
+struct SimulatorParameters {
+  double time_step{0.01};  ///< h [s] > 0
+  Eigen::Vector3d gravity{0.0, 0.0, -9.81};  ///< World frame. [m/s^2]
+  Material material;
+  RayleighDamping damping;
+  LinearSolverParameters linear_solver;
+  ContactParameters contact;
+  SealParameters seal;
+  RegulatorParameters regulator;
+};
+
+/** Checks every number.
+ @throws std::invalid_argument naming the field by its dotted YAML path (`cup.young_modulus`,
+   `seal.open_gap`), its value and what is allowed. */
+void Validate(const SimulatorParameters& parameters);
+
+}  // namespace vacuum_gripper_sim

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <string>
+#include <variant>
+#include <vector>
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+namespace vacuum_gripper_sim {
+
+/// Half space z <= 0 of its own frame S; its surface is the plane z = 0.
+struct Plane {};
+
+/// Box centred in S, edges along its axes.
+struct Box {
+  Eigen::Vector3d size{Eigen::Vector3d::Zero()};  ///< Full edge lengths. [m]
+};
+
+/// Sphere centred in S.
+struct Sphere {
+  double radius{0.0};  ///< [m]
+};
+
+/// Solid cylinder centred in S, axis along z (as in URDF).
+struct Cylinder {
+  double radius{0.0};  ///< [m]
+  double length{0.0};  ///< [m]
+};
+
+using Shape = std::variant<Plane, Box, Sphere, Cylinder>;
+
+/// A rigid obstacle that the cup touches; its pose may be changed between steps.
+struct RigidSurface {
+  std::string name;  ///< For messages: the URDF link or the scenario's key.
+  Shape shape;
+  Eigen::Isometry3d X_WS{Eigen::Isometry3d::Identity()};  ///< Pose of S in the world.
+};
+
+/// What a point sees of a surface.
+struct SurfaceDistance {
+  double distance{0.0};    ///< Signed; negative inside the solid. [m]
+  Eigen::Vector3d normal;  ///< Unit gradient of the distance: out of the solid, world axes.
+};
+
+/** Signed distance of a point to a surface and the direction out of it.
+
+ Exact inside and outside. Where the nearest point is not unique (a sphere's centre, a box's middle)
+ one of the directions is returned, always a unit vector.
+
+ @param p_W The point, world frame. [m] */
+SurfaceDistance Distance(const RigidSurface& surface, const Eigen::Vector3d& p_W);
+
+/** Checks a surface's numbers.
+ @throws std::invalid_argument naming the surface, the field, its value and what is allowed: sizes
+   finite and > 0, the pose finite and a rotation. */
+void Validate(const RigidSurface& surface);
+
+}  // namespace vacuum_gripper_sim

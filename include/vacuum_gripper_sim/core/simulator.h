@@ -1,0 +1,69 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include "vacuum_gripper_sim/core/cavity_surface.h"
+#include "vacuum_gripper_sim/core/parameters.h"
+#include "vacuum_gripper_sim/core/rigid_surface.h"
+#include "vacuum_gripper_sim/core/step_result.h"
+#include "vacuum_gripper_sim/core/tet_mesh.h"
+
+namespace vacuum_gripper_sim {
+
+/** A suction cup on rigid surfaces, advanced step by step as in [Bernardin, Sec. III-A].
+
+ The mount frame M (`cup_frame`) has its origin on the cup's axis at the height of the mount's top
+ and z along suction, out of the cup: p_M = (x, -y, z_top - z) for a mesh point (x, y, z).
+
+ [Bernardin] A. Bernardin, C. Duriez, M. Marchal, "An Interactive Physically-based Model for Active
+   Suction Phenomenon Simulation", IROS 2019. */
+class Simulator {
+ public:
+  /** @param mesh       The cup at rest.
+      @param parameters Checked here.
+      @param X_WM       Initial pose of the mount.
+      @throws std::invalid_argument if a parameter or the mesh's cavity is unusable. */
+  Simulator(TetMesh mesh, const SimulatorParameters& parameters,
+            const Eigen::Isometry3d& X_WM = Eigen::Isometry3d::Identity());
+  ~Simulator();
+  Simulator(Simulator&&) noexcept;
+  Simulator& operator=(Simulator&&) noexcept;
+
+  /// Replaces the world. @throws std::invalid_argument, see Validate(const RigidSurface&).
+  void SetSurfaces(std::vector<RigidSurface> surfaces);
+  const std::vector<RigidSurface>& surfaces() const;
+
+  /// Moves surface `index` for the steps to come. @throws std::invalid_argument if the pose is not
+  /// finite, std::out_of_range for an unknown index.
+  void SetSurfacePose(int index, const Eigen::Isometry3d& X_WS);
+
+  /** Advances the cup by one time step h.
+
+   A step that ends unconverged or non-finite is undone: the result then shows the last good state
+   with the reason in `outcome` and `message`, and the next step starts from that state.
+
+   @pre command.X_WM is a rigid motion, command.pressure_setpoint in [min_pressure, 0]; a command
+     that is not is refused as kNonFinite, nothing moves.
+   @returns the result, valid until the next call of a non-const member. */
+  const StepResult& Step(const Command& command);
+
+  /// Rest shape at a pose, at rest, vented. Simulated time goes on.
+  void Reset(const Eigen::Isometry3d& X_WM);
+
+  const StepResult& result() const;  ///< Of the last step, or the state at start.
+  const TetMesh& mesh() const;
+  const CavitySurface& cavity() const;
+  const SimulatorParameters& parameters() const;
+
+ private:
+  class Implementation;
+  std::unique_ptr<Implementation> implementation_;
+};
+
+/// Pose of the mesh's rest frame R in the mount frame M; see Simulator.
+Eigen::Isometry3d MountFromRest(const TetMesh& mesh);
+
+}  // namespace vacuum_gripper_sim

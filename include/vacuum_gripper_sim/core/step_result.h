@@ -1,0 +1,76 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+#include "vacuum_gripper_sim/core/classifier.h"
+
+namespace vacuum_gripper_sim {
+
+/// What the step is asked to reach.
+struct Command {
+  Eigen::Isometry3d X_WM{Eigen::Isometry3d::Identity()};  ///< Pose of the mount (`cup_frame`) at the
+                                                          ///< end of the step, in the world.
+  double pressure_setpoint{0.0};  ///< Gauge pressure the regulator aims at. [Pa] <= 0
+};
+
+/// State of the grip, numbered as in SealState.msg.
+enum class SealStatus : std::uint8_t { kOpen = 0, kSealed = 1, kRegulating = 2, kLost = 3 };
+
+/// How a step ended. Failure is data, not an exception: the loop keeps its rate and reports it.
+enum class StepOutcome {
+  kOk,
+  kUnconverged,  ///< A solver missed its tolerance; the step was undone.
+  kNonFinite,    ///< The state stopped being finite; the step was undone.
+};
+
+/// Wall time of the parts of one step. [s]
+struct StepTimings {
+  double assembly{0.0};        ///< Internal forces, stiffness, A and b.
+  double factorization{0.0};   ///< Of A.
+  double free_motion{0.0};     ///< A dv = b.
+  double narrow_phase{0.0};    ///< Distances to the surfaces.
+  double classification{0.0};  ///< The classifier.
+  double delassus{0.0};        ///< W = h^2 H A^-1 H^T.
+  double solve{0.0};           ///< The mixed complementarity problem.
+  double correction{0.0};      ///< dv += h A^-1 H^T lambda, and the wrench.
+  double total{0.0};
+};
+
+/// Everything a publisher needs to know of one step; state is that at the step's end.
+struct StepResult {
+  StepOutcome outcome{StepOutcome::kOk};
+  std::string message;  ///< What went wrong; empty if nothing did.
+  double time{0.0};     ///< Simulated time since construction. [s]
+
+  Eigen::Isometry3d X_WM{Eigen::Isometry3d::Identity()};      ///< Pose of the mount.
+  Eigen::Vector3d force_M{Eigen::Vector3d::Zero()};   ///< Of the cup on its mount, mount axes. [N]
+  Eigen::Vector3d torque_M{Eigen::Vector3d::Zero()};  ///< About the mount's origin, its axes. [N m]
+
+  SealStatus status{SealStatus::kOpen};
+  double gauge_pressure{0.0};  ///< lambda_p, in the cavity during this step. [Pa]
+  double setpoint{0.0};        ///< [Pa]
+  double bottleneck_gap{0.0};  ///< Widest gap that leads from port to rim; < 0: loaded ring. [m]
+  double cavity_area{0.0};     ///< Wet area projected on the suction axis. [m^2]
+  double cavity_volume{0.0};   ///< Between wet surface and the plane across its edge. [m^3]
+  double contact_force{0.0};   ///< Sum of the contacts' normal forces. [N]
+  std::uint32_t num_contacts{0};    ///< Contacts that carry load.
+  std::uint32_t num_candidates{0};  ///< Contact constraints in the problem.
+  double max_penetration{0.0};      ///< Over all surface nodes, >= 0. [m]
+
+  Eigen::Matrix3Xd x_W;           ///< Deformed positions of all mesh nodes, 3 by #nodes. [m]
+  Classification classification;  ///< Of the cavity points at the step's end.
+  std::vector<double> gap;        ///< Signed distance of each cavity point; +inf: no surface. [m]
+
+  int solver_iterations{0};     ///< Of the last contact solve.
+  double solver_residual{0.0};  ///< max_i |min(delta_i, lambda_i W_ii)|. [m]
+  int linear_iterations{0};     ///< CG iterations of the step; 0 with the direct solver.
+  int factorizations{0};        ///< Of A in this step.
+  StepTimings timings;
+};
+
+}  // namespace vacuum_gripper_sim
