@@ -1,8 +1,8 @@
 #pragma once
 
-#include <string>
-
 #include <yaml-cpp/yaml.h>
+
+#include <string>
 
 #include "vacuum_gripper_sim/core/parameters.h"
 #include "vacuum_gripper_sim/core/tet_mesh.h"
@@ -25,8 +25,9 @@ struct Cup {
  @throws std::invalid_argument with one clear line. */
 Cup ReadCup(const YAML::Node& node, const std::string& directory, const std::string& cup_directory);
 
-/** Replaces a cup given by name or file by the map in that file, its mesh path made absolute, so that
- single keys can be overridden (`cup.young_modulus`). A map is returned with its mesh made absolute. */
+/** Replaces a cup given by name or file by the map in that file, its mesh path made absolute, so
+ that single keys can be overridden (`cup.young_modulus`). A map is returned with its mesh made
+ absolute. */
 YAML::Node ResolveCup(const YAML::Node& node, const std::string& directory,
                       const std::string& cup_directory);
 

@@ -1,20 +1,20 @@
 #pragma once
 
-#include <set>
-#include <string>
-#include <vector>
+#include <yaml-cpp/yaml.h>
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
-#include <yaml-cpp/yaml.h>
+#include <set>
+#include <string>
+#include <vector>
 
 namespace vacuum_gripper_sim {
 
 /** Typed, strict access to a YAML map.
 
- Every getter throws std::invalid_argument with one line that names the parameter by its dotted path,
- its value and what is allowed, and tells "not set" from "wrong type" (YAML 1.1 readers such as
- rosparam turn 593.0e3 into a string). Getters with a default leave the default where the key is
+ Every getter throws std::invalid_argument with one line that names the parameter by its dotted
+ path, its value and what is allowed, and tells "not set" from "wrong type" (YAML 1.1 readers such
+ as rosparam turn 593.0e3 into a string). Getters with a default leave the default where the key is
  absent. CheckNoUnknownKeys() refuses keys that no getter asked for: a typo is not a silent default.
 
  No ROS in here: the node turns its parameters into a YAML::Node first. */

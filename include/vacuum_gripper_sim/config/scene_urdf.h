@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Geometry>
 #include <string>
 #include <vector>
 
@@ -11,6 +12,8 @@ namespace vacuum_gripper_sim {
 struct SceneLink {
   std::string name;                    ///< Link name = tf frame.
   std::vector<RigidSurface> surfaces;  ///< X_WS holds the pose in the link's frame, X_LS.
+  /// Pose in the URDF's root link with all joints at zero: where the link is without tf.
+  Eigen::Isometry3d X_RL{Eigen::Isometry3d::Identity()};
 };
 
 /** Reads the collision geometry of a URDF with urdfdom: box, sphere, cylinder. Links without

@@ -5,17 +5,21 @@
 
 namespace vacuum_gripper_sim {
 
-/** Reads the keys that node and experiment tool share into SimulatorParameters; validates nothing but
- types, Validate(SimulatorParameters) does the rest:
+// clang-format off
+/** Reads the keys that node and experiment tool share into SimulatorParameters; validates nothing
+ but types, Validate(SimulatorParameters) does the rest:
 
      gravity: [x, y, z]                                    # [m/s^2]
-     linear_solver: {method: direct|conjugate_gradient, tolerance, max_iterations, refactor_interval}
-     contact: {solver: active_set|gauss_seidel, tolerance, max_iterations, relaxation, alarm_distance}
+     linear_solver: {method: direct|conjugate_gradient, tolerance, max_iterations,
+                     refactor_interval}
+     contact: {solver: active_set|gauss_seidel, tolerance, acceptable_residual, max_iterations,
+               relaxation, alarm_distance}
      seal: {close_gap, open_gap, max_rounds, ramp_increments}
      regulator: {default_pressure, min_pressure, ramp_rate}
 
  Material, damping and time step come from elsewhere (the cup's file, `rate` or `time_step`) and are
  left at their defaults here. Keys absent keep the defaults of the structs. */
+// clang-format on
 SimulatorParameters ReadSimulatorParameters(ParameterReader* reader);
 
 }  // namespace vacuum_gripper_sim

@@ -32,9 +32,10 @@ enum class ContactSolverMethod { kGaussSeidel, kActiveSet };
 /// How the mixed complementarity problem is solved.
 struct ContactParameters {
   ContactSolverMethod method{ContactSolverMethod::kActiveSet};
-  double tolerance{1e-9};   ///< Bound on the complementarity residual. [m] > 0
-  int max_iterations{100};  ///< Gauss-Seidel sweeps or active-set changes. >= 1
-  double relaxation{1.0};   ///< Gauss-Seidel: over-relaxation factor, in (0, 2). [-]
+  double tolerance{1e-9};            ///< Bound on the complementarity residual. [m] > 0
+  double acceptable_residual{1e-6};  ///< A step that ends above this is undone. [m] >= tolerance
+  int max_iterations{100};           ///< Gauss-Seidel sweeps or active-set changes. >= 1
+  double relaxation{1.0};            ///< Gauss-Seidel: over-relaxation factor, in (0, 2). [-]
   double alarm_distance{5e-4};  ///< Nodes nearer than this after the free motion are candidates;
                                 ///< those that penetrate after the solve are added. [m] > 0
 };
@@ -56,7 +57,7 @@ struct RegulatorParameters {
 
 /// Everything the Simulator needs besides mesh, surfaces and commands.
 struct SimulatorParameters {
-  double time_step{0.01};  ///< h [s] > 0
+  double time_step{0.01};                    ///< h [s] > 0
   Eigen::Vector3d gravity{0.0, 0.0, -9.81};  ///< World frame. [m/s^2]
   Material material;
   RayleighDamping damping;

@@ -1,11 +1,9 @@
 #pragma once
 
-#include <string>
-#include <variant>
-#include <vector>
-
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <string>
+#include <variant>
 
 namespace vacuum_gripper_sim {
 
@@ -50,6 +48,9 @@ struct SurfaceDistance {
 
  @param p_W The point, world frame. [m] */
 SurfaceDistance Distance(const RigidSurface& surface, const Eigen::Vector3d& p_W);
+
+/// Is X finite and its linear part a rotation (within 1e-6)?
+bool IsRigidMotion(const Eigen::Isometry3d& X);
 
 /** Checks a surface's numbers.
  @throws std::invalid_argument naming the surface, the field, its value and what is allowed: sizes

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <cstdint>
+#include <optional>
+#include <ostream>
+#include <string>
+#include <vector>
+
+#include "vacuum_gripper_sim/core/step_result.h"
+
+namespace vacuum_gripper_sim {
+
+/// The figures of one experiment. Empty where the event did not happen.
+struct ExperimentSummary {
+  std::optional<double> sealed_at;   ///< First time the grip held (SEALED or REGULATING). [s]
+  std::optional<double> lost_at;     ///< First time the status became LOST. [s]
+  std::optional<double> hold_force;  ///< |Force along the approach axis| in the last step before
+                                     ///< the first upward motion, or of all. [N]
+  std::optional<double> peak_pull_force;  ///< Largest |force along the approach axis| from the
+                                          ///< first upward motion on. [N]
+  std::optional<double> peak_pull_at;     ///< When. [s]
+  int seal_flips{0};                      ///< Changes between a grip that holds and none.
+  int steps{0};                           ///< Undone ones included.
+  int undone_steps{0};                    ///< Steps that did not end as kOk.
+  double max_penetration{0.0};            ///< [m]
+  double min_gauge_pressure{0.0};         ///< Deepest vacuum in the cavity. [Pa]
+  double simulated_time{0.0};             ///< [s]
+  double median_step_ms{0.0};             ///< Wall time of a step. [ms]
+  double p99_step_ms{0.0};                ///< Nearest rank. [ms]
+  double real_time_factor{0.0};           ///< Simulated time / wall time of the steps.
+};
+
+/** Collects the figures of an experiment from its steps.
+
+ The approach axis is z of `cup_frame`; upward motion is motion of the mount against it. The mount's
+ first way down to the surface therefore does not count, a sideways move neither. */
+class SummaryAccumulator {
+ public:
+  /// @param X_WM Pose of the mount before the first step. @param time_step h. [s]
+  SummaryAccumulator(const Eigen::Isometry3d& X_WM, double time_step);
+
+  void Add(const StepResult& result);
+  ExperimentSummary Summary() const;
+
+ private:
+  void AddSeal(const StepResult& result);
+  void AddForce(const StepResult& result);
+
+  ExperimentSummary summary_;
+  double time_step_;
+  Eigen::Isometry3d X_WM_;  // after the previous step
+  bool holds_{false};
+  SealStatus status_{SealStatus::kOpen};
+  bool pulled_{false};
+  std::vector<double> step_ms_;
+};
+
+/// Writes the summary as YAML; a figure that is empty is `null`.
+void WriteSummary(const ExperimentSummary& summary, const std::string& scenario,
+                  std::ostream* stream);
+
+}  // namespace vacuum_gripper_sim

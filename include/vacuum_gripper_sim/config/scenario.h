@@ -1,0 +1,43 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "vacuum_gripper_sim/config/cup_file.h"
+#include "vacuum_gripper_sim/config/timeline.h"
+#include "vacuum_gripper_sim/core/parameters.h"
+#include "vacuum_gripper_sim/core/rigid_surface.h"
+
+namespace vacuum_gripper_sim {
+
+/// An experiment: a cup, what it touches and what its mount does.
+struct Scenario {
+  std::string name;
+  Cup cup;
+  SimulatorParameters parameters;  ///< Time step, material and damping included; validated.
+  std::vector<RigidSurface> surfaces;
+  double duration{0.0};            ///< [s] > 0
+  std::vector<Keyframe> timeline;  ///< Of the mount, in the world.
+
+  /// Steps of size h that cover the duration.
+  int num_steps() const;
+};
+
+/// The scenario's file: `name` itself if it is a path or a file, else `name`.yaml among the
+/// experiments that ship below `share_directory`. @throws std::invalid_argument if there is none.
+std::string FindScenario(const std::string& name, const std::string& share_directory);
+
+/** Reads a scenario. Its keys are explained in config/experiments/template.yaml: `name`,
+ `description`, `cup`, `surfaces` or `scene`, `time_step`, `duration`, `timeline` and those of
+ ReadSimulatorParameters(). Without surfaces and scene there is a plane at z = 0.
+
+ @param path            The YAML file. Relative paths in it (cup, mesh, scene) are relative to it.
+ @param overrides       `key.path=value` each, applied in order; see ApplyOverride(). A key below a
+                        cup given by name or file (`cup.young_modulus`) changes that cup.
+ @param share_directory Where `config/cups` is; see ShareDirectory().
+ @throws std::invalid_argument with one line that names the file or key, its value and what is
+   allowed. */
+Scenario ReadScenario(const std::string& path, const std::vector<std::string>& overrides,
+                      const std::string& share_directory);
+
+}  // namespace vacuum_gripper_sim

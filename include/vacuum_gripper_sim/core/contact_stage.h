@@ -1,0 +1,94 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/SparseCore>
+#include <vector>
+
+#include "vacuum_gripper_sim/core/contact.h"
+#include "vacuum_gripper_sim/core/implicit_euler.h"
+#include "vacuum_gripper_sim/core/linear_solver.h"
+#include "vacuum_gripper_sim/core/mcp_solver.h"
+#include "vacuum_gripper_sim/core/parameters.h"
+#include "vacuum_gripper_sim/core/rigid_surface.h"
+#include "vacuum_gripper_sim/core/step_result.h"
+
+namespace vacuum_gripper_sim {
+
+/// End of a step under one pressure load.
+struct ContactSolution {
+  Eigen::VectorXd dv_f;            ///< Velocity change of the free nodes, 3 #free. [m/s]
+  Eigen::Matrix3Xd x_W;            ///< Positions of all nodes, 3 by #nodes. [m]
+  Eigen::Matrix3Xd contact_force;  ///< H_c^T lambda_c, 3 by #nodes, world axes. [N]
+  Eigen::VectorXd lambda;          ///< Normal force on each node, #nodes. [N]
+  std::vector<double> distance;    ///< Of each surface node to the nearest surface. [m]
+  double max_penetration{0.0};     ///< Over all surface nodes, >= 0. [m]
+  double error{0.0};               ///< Largest penetration, or gap under a loaded contact. [m]
+  int num_candidates{0};
+  McpStatistics statistics;  ///< Iterations summed, residual of the last solve.
+};
+
+/** Items 3 to 5 of [Bernardin, Sec. III-A] for contacts alone: given the free motion and the load
+ of the cavity's pressure, finds the contact forces and the corrected motion.
+
+ Candidates are the nodes that the loaded free motion brings nearer to a surface than the alarm
+ distance, seen from the side of the surface where they started the step. Every surface node is
+ checked after the solve; those that penetrate join the candidates, and gaps are measured anew at
+ the end of the motion:
+
+     delta = gap(x_end) - W lambda,      0 <= delta + W lambda'  perp  lambda' >= 0.
+
+ At the fixed point lambda' = lambda the true gaps are complementary to the forces, also on curved
+ surfaces and with a W from an earlier factorisation. On planes with the current factorisation the
+ first pass is exact. */
+class ContactStage {
+ public:
+  /** @param surface_nodes Nodes that may touch, ascending; none of them clamped. All references
+     must outlive this. */
+  ContactStage(const ImplicitEuler& system, LinearSolver* solver, std::vector<int> surface_nodes,
+               const ContactParameters& parameters);
+
+  const std::vector<int>& surface_nodes() const { return surface_nodes_; }
+
+  /** Starts a step from its free motion; forgets the candidates of the last one.
+   @param x,v State at the step's start, 3 by #nodes. @param dv_f Free motion, 3 #free.
+   @param dv_c Of the clamped nodes, 3 by #clamped. @param h Time step. [s] */
+  void Begin(const std::vector<RigidSurface>& surfaces, const Eigen::Matrix3Xd& x,
+             const Eigen::Matrix3Xd& v, const Eigen::VectorXd& dv_f, const Eigen::Matrix3Xd& dv_c,
+             double h);
+
+  /** Solves the contacts under a load; may be called several times a step.
+   @param load Force on every node, 3 by #nodes. [N]
+   @param[out] solution
+   @param[in,out] timings Adds to narrow_phase, delassus, solve and correction.
+   @returns false if a linear solve failed. */
+  bool Solve(const Eigen::Matrix3Xd& load, ContactSolution* solution, StepTimings* timings);
+
+  /// Forgets the warm start, as after a reset.
+  void ForgetForces();
+
+ private:
+  Eigen::Matrix3Xd EndPositions(const Eigen::VectorXd& dv_f) const;
+  void UpdateCandidates(const Eigen::Matrix3Xd& measured_at, const Eigen::Matrix3Xd& x,
+                        StepTimings* timings);
+  void RebuildDelassus(StepTimings* timings);
+  double& ForceOf(const Contact& contact);
+  void MeasureEnd(ContactSolution* solution) const;
+
+  const ImplicitEuler* system_;
+  LinearSolver* solver_;
+  std::vector<int> surface_nodes_;
+  ContactParameters parameters_;
+
+  // Of the current step.
+  const std::vector<RigidSurface>* surfaces_{nullptr};
+  Eigen::Matrix3Xd x0_, v0_, dv_c_;
+  Eigen::VectorXd dv_free_;
+  double h_{0.0};
+  std::vector<Contact> candidates_;
+  Eigen::SparseMatrix<double> H_transposed_;  // 3 #free by #candidates
+  Eigen::MatrixXd W_;                         // [m/N]
+
+  std::vector<double> forces_;  // warm start: of (node, surface), node-major [N]
+};
+
+}  // namespace vacuum_gripper_sim

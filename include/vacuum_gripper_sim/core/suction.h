@@ -1,0 +1,81 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "vacuum_gripper_sim/core/cavity_surface.h"
+#include "vacuum_gripper_sim/core/classifier.h"
+#include "vacuum_gripper_sim/core/contact_stage.h"
+#include "vacuum_gripper_sim/core/parameters.h"
+#include "vacuum_gripper_sim/core/step_result.h"
+
+namespace vacuum_gripper_sim {
+
+/// What the cavity remembers from one step to the next.
+struct GripState {
+  bool sealed{false};             ///< Airtight with the regulator at work.
+  bool lost{false};               ///< Was sealed under suction since the set-point left zero.
+  double pressure{0.0};           ///< lambda_p, gauge. [Pa]
+  Classification classification;  ///< Of the step's end; empty before the first step.
+};
+
+/// A solved step: motion, and the cavity at its end.
+struct SuctionSolution {
+  ContactSolution contact;
+  Classification classification;
+  Eigen::Matrix3Xd load;  ///< H_p^T lambda_p, 3 by #nodes. [N]
+};
+
+/** Couples the cavity's pressure with the contacts: the mixed complementarity problem of
+ [Bernardin, Sec. III-C],
+
+     delta = delta_free + W_cc lambda_c + W_cp lambda_p,
+     0 <= delta  perp  lambda_c >= 0,   lambda_p = p,
+
+ where p, and the points it acts on, depend on whether the cavity is airtight.
+
+ Without an earlier seal, the paper's three stages: (1) contacts without pressure; if the cavity is
+ then airtight, (2) raise lambda_p in increments, reclassifying after each; (3) solve the contacts
+ with the final classification. With an earlier seal, the step starts from the previous pressure and
+ classification instead - without its pressure the lip would spring off within one implicit step and
+ a tight cup would read as leaking - and is solved and reclassified until the wet points repeat or
+ `max_rounds` is reached. The seal is lost only if the state at the *end* leaks; then the step is
+ solved again without pressure.
+
+ The regulator moves lambda_p towards the set-point by at most ramp_rate * h a step. */
+class Suction {
+ public:
+  /// @param cavity Must outlive this. @param young_modulus Scales the order of loaded points. [Pa]
+  Suction(const CavitySurface& cavity, const SealParameters& seal,
+          const RegulatorParameters& regulator, double young_modulus);
+
+  /** Solves the step's contacts and pressure.
+   @param x_W Positions at the step's start: H_p is that of [Bernardin, Sec. III-C] there.
+   @param setpoint Gauge pressure wanted. [Pa] @param h Time step. [s]
+   @param stage Begun with the step's free motion.
+   @param[in,out] state @param[out] solution @param[in,out] timings
+   @returns false if a linear solve failed. */
+  bool Solve(const Eigen::Matrix3Xd& x_W, double setpoint, double h, ContactStage* stage,
+             GripState* state, SuctionSolution* solution, StepTimings* timings);
+
+  /// Classifies the cavity at the end of a contact solution.
+  Classification ClassifyEnd(const ContactSolution& contact, const ContactStage& stage,
+                             const std::vector<bool>& was_wet) const;
+
+ private:
+  bool SolveWith(const std::vector<bool>& wet, double pressure, ContactStage* stage,
+                 SuctionSolution* solution, StepTimings* timings) const;
+  bool HoldSeal(double pressure, ContactStage* stage, GripState* state, SuctionSolution* solution,
+                StepTimings* timings) const;
+  bool TryToSeal(double pressure, ContactStage* stage, GripState* state, SuctionSolution* solution,
+                 StepTimings* timings) const;
+
+  const CavitySurface* cavity_;
+  SealParameters seal_;
+  RegulatorParameters regulator_;
+  double young_modulus_;
+  Eigen::Matrix3Xd area_vectors_;  // of the step's start [m^2]
+  Eigen::Index num_nodes_{0};
+};
+
+}  // namespace vacuum_gripper_sim

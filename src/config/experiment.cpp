@@ -1,0 +1,47 @@
+#include "vacuum_gripper_sim/config/experiment.h"
+
+#include <exception>
+
+#include "vacuum_gripper_sim/core/gmsh_reader.h"
+
+namespace vacuum_gripper_sim {
+
+Simulator MakeSimulator(const Scenario& scenario) {
+  Simulator simulator(ReadGmsh(scenario.cup.mesh_file), scenario.parameters,
+                      CommandAt(scenario.timeline, 0.0).X_WM);
+  simulator.SetSurfaces(scenario.surfaces);
+  return simulator;
+}
+
+ExperimentOutcome RunExperiment(const Scenario& scenario, Simulator* simulator,
+                                const std::function<void(const StepResult&)>& observer) {
+  const double h = scenario.parameters.time_step;
+  SummaryAccumulator accumulator(CommandAt(scenario.timeline, 0.0).X_WM, h);
+  ExperimentOutcome outcome;
+  int undone_in_a_row = 0;
+  const int num_steps = scenario.num_steps();
+  for (int step = 1; step <= num_steps && !outcome.stopped_early; ++step) {
+    const StepResult* result = nullptr;
+    try {
+      // A command is where the mount shall be at the end of the step.
+      result = &simulator->Step(CommandAt(scenario.timeline, h * step));
+    } catch (const std::exception& e) {
+      // Not foreseen by Step(); what was recorded up to here must not be lost with it.
+      outcome.message = e.what();
+      outcome.stopped_early = true;
+      break;
+    }
+    accumulator.Add(*result);
+    observer(*result);
+    if (result->outcome == StepOutcome::kOk) {
+      undone_in_a_row = 0;
+      continue;
+    }
+    outcome.message = result->message;
+    outcome.stopped_early = ++undone_in_a_row >= kMaxUndoneInARow;
+  }
+  outcome.summary = accumulator.Summary();
+  return outcome;
+}
+
+}  // namespace vacuum_gripper_sim

@@ -1,0 +1,118 @@
+#include "vacuum_gripper_sim/config/experiment_summary.h"
+
+#include <yaml-cpp/yaml.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <locale>
+#include <sstream>
+
+namespace vacuum_gripper_sim {
+namespace {
+
+// Motions below this are the rounding of a mount that holds still. [m]
+constexpr double kMotionTolerance = 1e-12;
+
+double Median(const std::vector<double>& sorted) {
+  const std::size_t middle = sorted.size() / 2;
+  return sorted.size() % 2 == 1 ? sorted[middle] : 0.5 * (sorted[middle - 1] + sorted[middle]);
+}
+
+double Percentile(const std::vector<double>& sorted, double fraction) {
+  const auto rank =
+      static_cast<std::size_t>(std::ceil(fraction * static_cast<double>(sorted.size())));
+  return sorted[std::max<std::size_t>(rank, 1) - 1];
+}
+
+std::string Number(const std::optional<double>& value) {
+  if (!value.has_value()) return "null";
+  std::ostringstream text;
+  text.imbue(std::locale::classic());
+  text.precision(12);
+  text << *value;
+  std::string number = text.str();
+  // What YAML 1.1 takes for text without it.
+  const std::size_t exponent = number.find('e');
+  if (exponent != std::string::npos && number.find('.') == std::string::npos) {
+    number.insert(exponent, ".0");
+  }
+  return number;
+}
+
+}  // namespace
+
+SummaryAccumulator::SummaryAccumulator(const Eigen::Isometry3d& X_WM, double time_step)
+    : time_step_(time_step), X_WM_(X_WM) {}
+
+void SummaryAccumulator::Add(const StepResult& result) {
+  ++summary_.steps;
+  if (result.outcome != StepOutcome::kOk) ++summary_.undone_steps;
+  summary_.max_penetration = std::max(summary_.max_penetration, result.max_penetration);
+  summary_.min_gauge_pressure = std::min(summary_.min_gauge_pressure, result.gauge_pressure);
+  step_ms_.push_back(1e3 * result.timings.total);
+  AddSeal(result);
+  AddForce(result);
+}
+
+void SummaryAccumulator::AddSeal(const StepResult& result) {
+  const bool holds =
+      result.status == SealStatus::kSealed || result.status == SealStatus::kRegulating;
+  if (holds != holds_) ++summary_.seal_flips;
+  if (holds && !summary_.sealed_at) summary_.sealed_at = result.time;
+  if (result.status == SealStatus::kLost && status_ != SealStatus::kLost && !summary_.lost_at) {
+    summary_.lost_at = result.time;
+  }
+  holds_ = holds;
+  status_ = result.status;
+}
+
+void SummaryAccumulator::AddForce(const StepResult& result) {
+  const Eigen::Vector3d motion = result.X_WM.translation() - X_WM_.translation();
+  if (motion.dot(X_WM_.linear().col(2)) < -kMotionTolerance) pulled_ = true;
+  X_WM_ = result.X_WM;
+  const double force = std::abs(result.force_M.z());
+  if (!pulled_) {
+    summary_.hold_force = force;
+  } else if (!summary_.peak_pull_force || force > *summary_.peak_pull_force) {
+    summary_.peak_pull_force = force;
+    summary_.peak_pull_at = result.time;
+  }
+}
+
+ExperimentSummary SummaryAccumulator::Summary() const {
+  ExperimentSummary summary = summary_;
+  if (step_ms_.empty()) return summary;
+  std::vector<double> sorted = step_ms_;
+  std::sort(sorted.begin(), sorted.end());
+  summary.median_step_ms = Median(sorted);
+  summary.p99_step_ms = Percentile(sorted, 0.99);
+  summary.simulated_time = time_step_ * summary.steps;
+  double wall = 0.0;
+  for (const double ms : step_ms_) wall += 1e-3 * ms;
+  summary.real_time_factor = wall > 0.0 ? summary.simulated_time / wall : 0.0;
+  return summary;
+}
+
+void WriteSummary(const ExperimentSummary& summary, const std::string& scenario,
+                  std::ostream* stream) {
+  YAML::Emitter name;
+  name << YAML::DoubleQuoted << scenario;
+  *stream << "scenario: " << name.c_str() << '\n'
+          << "sealed_at: " << Number(summary.sealed_at) << "  # s\n"
+          << "lost_at: " << Number(summary.lost_at) << "  # s\n"
+          << "hold_force: " << Number(summary.hold_force) << "  # N\n"
+          << "peak_pull_force: " << Number(summary.peak_pull_force) << "  # N\n"
+          << "peak_pull_at: " << Number(summary.peak_pull_at) << "  # s\n"
+          << "seal_flips: " << std::to_string(summary.seal_flips) << '\n'
+          << "steps: " << std::to_string(summary.steps) << '\n'
+          << "undone_steps: " << std::to_string(summary.undone_steps) << '\n'
+          << "max_penetration: " << Number(summary.max_penetration) << "  # m\n"
+          << "min_gauge_pressure: " << Number(summary.min_gauge_pressure) << "  # Pa\n"
+          << "simulated_time: " << Number(summary.simulated_time) << "  # s\n"
+          << "median_step_ms: " << Number(summary.median_step_ms) << '\n'
+          << "p99_step_ms: " << Number(summary.p99_step_ms) << '\n'
+          << "real_time_factor: " << Number(summary.real_time_factor) << '\n';
+}
+
+}  // namespace vacuum_gripper_sim

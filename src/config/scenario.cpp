@@ -1,0 +1,152 @@
+#include "vacuum_gripper_sim/config/scenario.h"
+
+#include <cmath>
+#include <cstddef>
+#include <filesystem>
+#include <set>
+#include <stdexcept>
+#include <system_error>
+#include <utility>
+
+#include "vacuum_gripper_sim/config/parameter_reader.h"
+#include "vacuum_gripper_sim/config/simulator_config.h"
+#include "vacuum_gripper_sim/config/surface_list.h"
+#include "vacuum_gripper_sim/config/yaml_file.h"
+#include "vacuum_gripper_sim/config/yaml_override.h"
+#include "yaml_text.h"
+
+namespace vacuum_gripper_sim {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double kMaxSteps = 1e7;
+
+/// Where a scenario's relative paths start and where the shipped cups are.
+struct Directories {
+  std::string scenario;
+  std::string cups;
+};
+
+void ApplyOverrides(const std::vector<std::string>& assignments, const Directories& directories,
+                    YAML::Node root) {
+  for (const std::string& assignment : assignments) {
+    const Override override_ = ParseOverride(assignment);
+    const bool below_cup = override_.path.compare(0, 4, "cup.") == 0;
+    if (below_cup && std::as_const(root)["cup"].IsDefined() && root["cup"].IsScalar()) {
+      root["cup"] = ResolveCup(root["cup"], directories.scenario, directories.cups);
+    }
+    ApplyOverride(override_, root);
+  }
+}
+
+std::vector<RigidSurface> ReadWorld(ParameterReader* reader, const Directories& directories) {
+  const YAML::Node list = reader->GetNode("surfaces");
+  if (!reader->Has("scene")) {
+    if (reader->Has("surfaces")) return ReadSurfaces(list, "surfaces");
+    RigidSurface ground;
+    ground.name = "ground";
+    ground.shape = Plane{};
+    return {ground};
+  }
+  const std::string scene = reader->GetString("scene");
+  if (reader->Has("surfaces")) {
+    throw std::invalid_argument("scene = " + scene +
+                                ": surfaces is set too; expected only one of them");
+  }
+  return ReadSceneFile((fs::path(directories.scenario) / scene).lexically_normal().string());
+}
+
+void CheckSetpoints(const Scenario& scenario, const YAML::Node& timeline) {
+  const double lowest = scenario.parameters.regulator.min_pressure;
+  for (std::size_t i = 0; i < scenario.timeline.size(); ++i) {
+    const double setpoint = scenario.timeline[i].pressure_setpoint;
+    if (setpoint <= 0.0 && setpoint >= lowest) continue;
+    throw std::invalid_argument(
+        "timeline." + std::to_string(i) +
+        ".pressure_setpoint = " + Describe(timeline[i]["pressure_setpoint"]) +
+        "; expected regulator.min_pressure to 0 [Pa], gauge (negative under suction)");
+  }
+}
+
+void CheckDuration(const Scenario& scenario, const YAML::Node& value) {
+  if (scenario.duration <= 0.0) {
+    throw std::invalid_argument("duration = " + Describe(value) + "; expected more than 0 [s]");
+  }
+  if (scenario.duration / scenario.parameters.time_step > kMaxSteps) {
+    throw std::invalid_argument(
+        "duration = " + (value.IsNull() ? "the last keyframe's time" : Describe(value)) +
+        "; expected at most 10000000 steps of time_step");
+  }
+}
+
+Scenario ReadDocument(const YAML::Node& root, const Directories& directories,
+                      const std::string& default_name) {
+  ParameterReader reader(root);
+  Scenario scenario;
+  scenario.name = reader.GetString("name", default_name);
+  reader.GetString("description", "");
+  const YAML::Node cup = reader.GetNode("cup");
+  SimulatorParameters& parameters = scenario.parameters;
+  parameters = ReadSimulatorParameters(&reader);
+  parameters.time_step = reader.GetDouble("time_step", parameters.time_step);
+  const YAML::Node timeline = reader.GetNode("timeline");
+  const YAML::Node duration = reader.GetNode("duration");
+  reader.GetNode("surfaces");
+  reader.GetNode("scene");
+  reader.CheckNoUnknownKeys();  // first: a typo explains most of what follows
+
+  scenario.cup = ReadCup(cup, directories.scenario, directories.cups);
+  parameters.material = scenario.cup.material;
+  parameters.damping = scenario.cup.damping;
+  Validate(parameters);
+  scenario.surfaces = ReadWorld(&reader, directories);
+  scenario.timeline = ReadTimeline(timeline, "timeline");
+  CheckSetpoints(scenario, timeline);
+  scenario.duration = reader.GetDouble("duration", scenario.timeline.back().time);
+  CheckDuration(scenario, duration);
+  return scenario;
+}
+
+}  // namespace
+
+int Scenario::num_steps() const {
+  // The slack forgives a duration / h that rounds to just above a whole number.
+  return static_cast<int>(std::ceil(duration / parameters.time_step - 1e-6));
+}
+
+std::string FindScenario(const std::string& name, const std::string& share_directory) {
+  std::error_code error;
+  if (name.find('/') != std::string::npos || fs::is_regular_file(name, error)) return name;
+  const fs::path shipped = fs::path(share_directory) / "config" / "experiments";
+  if (fs::is_regular_file(shipped / (name + ".yaml"), error)) {
+    return (shipped / (name + ".yaml")).string();
+  }
+  std::set<std::string> names;
+  for (const fs::directory_entry& entry : fs::directory_iterator(shipped, error)) {
+    if (entry.path().extension() == ".yaml") names.insert(entry.path().stem().string());
+  }
+  std::string list;
+  for (const std::string& known : names) list += ", " + known;
+  throw std::invalid_argument(name + ": no such file; expected a scenario's path or one of the " +
+                              "experiments that ship with the package" + list);
+}
+
+Scenario ReadScenario(const std::string& path, const std::vector<std::string>& overrides,
+                      const std::string& share_directory) {
+  YAML::Node root = ReadYamlFile(path);
+  const fs::path file = fs::absolute(path);
+  const Directories directories{file.parent_path().string(),
+                                (fs::path(share_directory) / "config" / "cups").string()};
+  try {
+    ApplyOverrides(overrides, directories, root);
+    return ReadDocument(root, directories, file.stem().string());
+  } catch (const YAML::Exception& e) {
+    // The readers check before they convert; whatever slips through is still one line.
+    throw std::invalid_argument(path + ": " + e.msg);
+  } catch (const std::invalid_argument& e) {
+    throw std::invalid_argument(path + ": " + e.what());
+  }
+}
+
+}  // namespace vacuum_gripper_sim

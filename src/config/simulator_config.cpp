@@ -1,0 +1,64 @@
+#include "vacuum_gripper_sim/config/simulator_config.h"
+
+namespace vacuum_gripper_sim {
+namespace {
+
+LinearSolverParameters ReadLinearSolver(ParameterReader reader) {
+  LinearSolverParameters p;
+  const std::string method = reader.GetChoice("method", {"direct", "conjugate_gradient"}, "direct");
+  p.method =
+      method == "direct" ? LinearSolverMethod::kDirect : LinearSolverMethod::kConjugateGradient;
+  p.tolerance = reader.GetDouble("tolerance", p.tolerance);
+  p.max_iterations = reader.GetInt("max_iterations", p.max_iterations);
+  p.refactor_interval = reader.GetInt("refactor_interval", p.refactor_interval);
+  reader.CheckNoUnknownKeys();
+  return p;
+}
+
+ContactParameters ReadContact(ParameterReader reader) {
+  ContactParameters p;
+  const std::string solver =
+      reader.GetChoice("solver", {"active_set", "gauss_seidel"}, "active_set");
+  p.method =
+      solver == "active_set" ? ContactSolverMethod::kActiveSet : ContactSolverMethod::kGaussSeidel;
+  p.tolerance = reader.GetDouble("tolerance", p.tolerance);
+  p.acceptable_residual = reader.GetDouble("acceptable_residual", p.acceptable_residual);
+  p.max_iterations = reader.GetInt("max_iterations", p.max_iterations);
+  p.relaxation = reader.GetDouble("relaxation", p.relaxation);
+  p.alarm_distance = reader.GetDouble("alarm_distance", p.alarm_distance);
+  reader.CheckNoUnknownKeys();
+  return p;
+}
+
+SealParameters ReadSeal(ParameterReader reader) {
+  SealParameters p;
+  p.close_gap = reader.GetDouble("close_gap", p.close_gap);
+  p.open_gap = reader.GetDouble("open_gap", p.open_gap);
+  p.max_rounds = reader.GetInt("max_rounds", p.max_rounds);
+  p.ramp_increments = reader.GetInt("ramp_increments", p.ramp_increments);
+  reader.CheckNoUnknownKeys();
+  return p;
+}
+
+RegulatorParameters ReadRegulator(ParameterReader reader) {
+  RegulatorParameters p;
+  p.default_pressure = reader.GetDouble("default_pressure", p.default_pressure);
+  p.min_pressure = reader.GetDouble("min_pressure", p.min_pressure);
+  p.ramp_rate = reader.GetDouble("ramp_rate", p.ramp_rate);
+  reader.CheckNoUnknownKeys();
+  return p;
+}
+
+}  // namespace
+
+SimulatorParameters ReadSimulatorParameters(ParameterReader* reader) {
+  SimulatorParameters p;
+  p.gravity = reader->GetVector3("gravity", p.gravity);
+  p.linear_solver = ReadLinearSolver(reader->GetMap("linear_solver"));
+  p.contact = ReadContact(reader->GetMap("contact"));
+  p.seal = ReadSeal(reader->GetMap("seal"));
+  p.regulator = ReadRegulator(reader->GetMap("regulator"));
+  return p;
+}
+
+}  // namespace vacuum_gripper_sim

@@ -1,0 +1,83 @@
+#include "vacuum_gripper_sim/config/surface_list.h"
+
+#include <cstddef>
+#include <stdexcept>
+#include <utility>
+
+#include "vacuum_gripper_sim/config/parameter_reader.h"
+#include "vacuum_gripper_sim/config/scene_urdf.h"
+#include "vacuum_gripper_sim/config/yaml_file.h"
+#include "yaml_text.h"
+
+namespace vacuum_gripper_sim {
+namespace {
+
+double ReadLength(ParameterReader* reader, const std::string& key) {
+  const double length = reader->GetDouble(key);
+  if (length <= 0.0) {
+    throw std::invalid_argument(reader->Name(key) + " = " + Describe(reader->GetNode(key)) +
+                                "; expected more than 0 [m]");
+  }
+  return length;
+}
+
+Shape ReadShape(ParameterReader* reader) {
+  reader->GetString("type");  // required: no shape is a good guess
+  const std::string type = reader->GetChoice("type", {"plane", "box", "sphere", "cylinder"}, "");
+  if (type == "box") {
+    const Eigen::Vector3d size = reader->GetVector3("size");
+    if (size.minCoeff() <= 0.0) {
+      throw std::invalid_argument(reader->Name("size") + " = " + Describe(reader->GetNode("size")) +
+                                  "; expected three lengths of more than 0 [m]");
+    }
+    return Box{size};
+  }
+  if (type == "sphere") return Sphere{ReadLength(reader, "radius")};
+  if (type == "cylinder") {
+    const double radius = ReadLength(reader, "radius");
+    return Cylinder{radius, ReadLength(reader, "length")};
+  }
+  return Plane{};
+}
+
+}  // namespace
+
+std::vector<RigidSurface> ReadSurfaces(const YAML::Node& node, const std::string& name) {
+  if (!node.IsSequence()) {
+    throw std::invalid_argument(name + " = " + Describe(node) + "; expected a list of surfaces");
+  }
+  std::vector<RigidSurface> surfaces;
+  for (std::size_t i = 0; i < node.size(); ++i) {
+    const std::string path = name + "." + std::to_string(i);
+    ParameterReader reader(node[i], path);
+    RigidSurface surface;
+    surface.name = reader.GetString("name", path);
+    surface.shape = ReadShape(&reader);
+    surface.X_WS.translation() = reader.GetVector3("position", Eigen::Vector3d::Zero());
+    surface.X_WS.linear() =
+        reader.GetRotation("rotation", Eigen::Quaterniond::Identity()).toRotationMatrix();
+    reader.CheckNoUnknownKeys();
+    Validate(surface);
+    surfaces.push_back(std::move(surface));
+  }
+  return surfaces;
+}
+
+std::vector<RigidSurface> ReadSceneFile(const std::string& path) {
+  std::vector<RigidSurface> surfaces;
+  try {
+    for (const SceneLink& link : ReadSceneUrdf(ReadTextFile(path))) {
+      for (RigidSurface surface : link.surfaces) {
+        surface.X_WS = link.X_RL * surface.X_WS;
+        surfaces.push_back(std::move(surface));
+      }
+    }
+  } catch (const std::invalid_argument& e) {
+    const std::string reason = e.what();
+    if (reason.find(path) != std::string::npos) throw;
+    throw std::invalid_argument(path + ": " + reason);
+  }
+  return surfaces;
+}
+
+}  // namespace vacuum_gripper_sim

@@ -1,0 +1,126 @@
+#include "vacuum_gripper_sim/core/mcp_solver.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <vector>
+
+namespace vacuum_gripper_sim {
+namespace {
+
+/// max_i |min(delta_i, lambda_i W_ii)|: 0 exactly where the complementarity conditions hold.
+double Residual(const Eigen::MatrixXd& W, const Eigen::VectorXd& delta_end,
+                const Eigen::VectorXd& lambda) {
+  if (lambda.size() == 0) return 0.0;
+  return delta_end.cwiseMin(W.diagonal().cwiseProduct(lambda)).cwiseAbs().maxCoeff();
+}
+
+McpStatistics GaussSeidel(const Eigen::MatrixXd& W, const Eigen::VectorXd& delta,
+                          const ContactParameters& parameters, Eigen::VectorXd* lambda) {
+  McpStatistics statistics;
+  *lambda = lambda->cwiseMax(0.0);
+  Eigen::VectorXd delta_end = delta + W * *lambda;
+  statistics.residual = Residual(W, delta_end, *lambda);
+  while (statistics.residual > parameters.tolerance &&
+         statistics.iterations < parameters.max_iterations) {
+    for (Eigen::Index i = 0; i < lambda->size(); ++i) {
+      const double old = (*lambda)(i);
+      (*lambda)(i) = std::max(0.0, old - parameters.relaxation * delta_end(i) / W(i, i));
+      const double change = (*lambda)(i)-old;
+      if (change != 0.0) delta_end.noalias() += change * W.col(i);
+    }
+    ++statistics.iterations;
+    statistics.residual = Residual(W, delta_end, *lambda);
+  }
+  statistics.converged = statistics.residual <= parameters.tolerance;
+  return statistics;
+}
+
+/// The forces that close the gaps of the contacts in `active`, zero elsewhere.
+Eigen::VectorXd ForcesOfActive(const Eigen::MatrixXd& W, const Eigen::VectorXd& delta,
+                               const std::vector<Eigen::Index>& active) {
+  // Two contacts in one direction at one node make W singular; this splits their force evenly and
+  // moves no gap by more than 1e-12 of itself.
+  constexpr double kRegularization = 1e-12;
+  const auto size = static_cast<Eigen::Index>(active.size());
+  Eigen::MatrixXd W_active(size, size);
+  Eigen::VectorXd right(size);
+  for (Eigen::Index j = 0; j < size; ++j) {
+    const Eigen::Index column = active[static_cast<std::size_t>(j)];
+    right(j) = -delta(column);
+    for (Eigen::Index i = j; i < size; ++i) {
+      W_active(i, j) = W(active[static_cast<std::size_t>(i)], column);
+    }
+    W_active(j, j) *= 1.0 + kRegularization;
+  }
+  const Eigen::VectorXd forces = W_active.selfadjointView<Eigen::Lower>().llt().solve(right).eval();
+  Eigen::VectorXd lambda = Eigen::VectorXd::Zero(delta.size());
+  for (Eigen::Index j = 0; j < size; ++j) lambda(active[static_cast<std::size_t>(j)]) = forces(j);
+  return lambda;
+}
+
+McpStatistics ActiveSet(const Eigen::MatrixXd& W, const Eigen::VectorXd& delta,
+                        const ContactParameters& parameters, Eigen::VectorXd* lambda) {
+  // Full exchanges allowed without a new record low of violations.
+  constexpr int kPatience = 5;
+  const Eigen::Index size = delta.size();
+  std::vector<bool> is_active(static_cast<std::size_t>(size));
+  for (Eigen::Index i = 0; i < size; ++i) {
+    is_active[static_cast<std::size_t>(i)] = (*lambda)(i) > 0.0;
+  }
+
+  McpStatistics statistics;
+  std::size_t record = static_cast<std::size_t>(size) + 1;
+  int patience = kPatience;
+  while (true) {
+    std::vector<Eigen::Index> active;
+    for (Eigen::Index i = 0; i < size; ++i) {
+      if (is_active[static_cast<std::size_t>(i)]) active.push_back(i);
+    }
+    *lambda = ForcesOfActive(W, delta, active);
+    Eigen::VectorXd delta_end = delta;
+    for (const Eigen::Index i : active) delta_end.noalias() += (*lambda)(i)*W.col(i);
+    ++statistics.iterations;
+
+    // Signs are decided well below the tolerance, so that it holds for the residual.
+    const double threshold = 0.1 * parameters.tolerance;
+    std::vector<Eigen::Index> violations;
+    for (Eigen::Index i = 0; i < size; ++i) {
+      const double violation =
+          is_active[static_cast<std::size_t>(i)] ? -(*lambda)(i)*W(i, i) : -delta_end(i);
+      if (violation > threshold) violations.push_back(i);
+    }
+    if (violations.empty() || statistics.iterations >= parameters.max_iterations) {
+      *lambda = lambda->cwiseMax(0.0);
+      statistics.residual = Residual(W, delta + W * *lambda, *lambda);
+      statistics.converged = statistics.residual <= parameters.tolerance;
+      return statistics;
+    }
+    if (violations.size() < record) {
+      record = violations.size();
+      patience = kPatience;
+    } else if (patience > 0) {
+      --patience;
+    } else {
+      violations = {violations.back()};
+    }
+    for (const Eigen::Index i : violations) {
+      is_active[static_cast<std::size_t>(i)] = !is_active[static_cast<std::size_t>(i)];
+    }
+  }
+}
+
+}  // namespace
+
+McpStatistics SolveContacts(const Eigen::MatrixXd& W, const Eigen::VectorXd& delta,
+                            const ContactParameters& parameters, Eigen::VectorXd* lambda) {
+  if (W.rows() != delta.size() || W.cols() != delta.size() || lambda->size() != delta.size()) {
+    throw std::invalid_argument("SolveContacts: W, delta and lambda must have the same size");
+  }
+  return parameters.method == ContactSolverMethod::kActiveSet
+             ? ActiveSet(W, delta, parameters, lambda)
+             : GaussSeidel(W, delta, parameters, lambda);
+}
+
+}  // namespace vacuum_gripper_sim

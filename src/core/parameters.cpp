@@ -1,0 +1,77 @@
+#include "vacuum_gripper_sim/core/parameters.h"
+
+#include <cmath>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+
+namespace vacuum_gripper_sim {
+namespace {
+
+void Require(bool allowed, const char* name, double value, const char* rule) {
+  if (allowed) return;
+  std::ostringstream message;
+  message << name << " = " << value << ", must be " << rule;
+  throw std::invalid_argument(message.str());
+}
+
+void RequirePositive(const char* name, double value, const char* unit) {
+  const std::string rule = std::string("finite and > 0 ") + unit;
+  Require(std::isfinite(value) && value > 0.0, name, value, rule.c_str());
+}
+
+void RequireNotNegative(const char* name, double value, const char* unit) {
+  const std::string rule = std::string("finite and >= 0 ") + unit;
+  Require(std::isfinite(value) && value >= 0.0, name, value, rule.c_str());
+}
+
+void RequireAtLeastOne(const char* name, int value) {
+  Require(value >= 1, name, value, "at least 1");
+}
+
+}  // namespace
+
+void Validate(const SimulatorParameters& p) {
+  Require(p.time_step > 0.0 && p.time_step <= 0.1, "time_step", p.time_step, "in (0, 0.1] [s]");
+  for (int i = 0; i < 3; ++i) {
+    Require(std::isfinite(p.gravity(i)), "gravity", p.gravity(i), "finite [m/s^2]");
+  }
+
+  RequirePositive("cup.young_modulus", p.material.young_modulus, "[Pa]");
+  Require(p.material.poisson_ratio >= 0.0 && p.material.poisson_ratio < 0.5, "cup.poisson_ratio",
+          p.material.poisson_ratio, "in [0, 0.5) [-]");
+  RequirePositive("cup.density", p.material.density, "[kg/m^3]");
+  RequireNotNegative("cup.damping.mass", p.damping.mass, "[1/s]");
+  RequireNotNegative("cup.damping.stiffness", p.damping.stiffness, "[s]");
+
+  Require(p.linear_solver.tolerance > 0.0 && p.linear_solver.tolerance < 1.0,
+          "linear_solver.tolerance", p.linear_solver.tolerance, "in (0, 1) [-]");
+  RequireAtLeastOne("linear_solver.max_iterations", p.linear_solver.max_iterations);
+  RequireAtLeastOne("linear_solver.refactor_interval", p.linear_solver.refactor_interval);
+
+  RequirePositive("contact.tolerance", p.contact.tolerance, "[m]");
+  Require(std::isfinite(p.contact.acceptable_residual) &&
+              p.contact.acceptable_residual >= p.contact.tolerance,
+          "contact.acceptable_residual", p.contact.acceptable_residual,
+          "finite and >= contact.tolerance [m]");
+  RequireAtLeastOne("contact.max_iterations", p.contact.max_iterations);
+  Require(p.contact.relaxation > 0.0 && p.contact.relaxation < 2.0, "contact.relaxation",
+          p.contact.relaxation, "in (0, 2) [-]");
+  RequirePositive("contact.alarm_distance", p.contact.alarm_distance, "[m]");
+
+  RequirePositive("seal.close_gap", p.seal.close_gap, "[m]");
+  Require(std::isfinite(p.seal.open_gap) && p.seal.open_gap >= p.seal.close_gap, "seal.open_gap",
+          p.seal.open_gap, "finite and >= seal.close_gap [m]");
+  RequireAtLeastOne("seal.max_rounds", p.seal.max_rounds);
+  RequireAtLeastOne("seal.ramp_increments", p.seal.ramp_increments);
+
+  Require(std::isfinite(p.regulator.min_pressure) && p.regulator.min_pressure < 0.0,
+          "regulator.min_pressure", p.regulator.min_pressure, "finite and < 0 [Pa]");
+  Require(p.regulator.default_pressure <= 0.0 &&
+              p.regulator.default_pressure >= p.regulator.min_pressure,
+          "regulator.default_pressure", p.regulator.default_pressure,
+          "in [regulator.min_pressure, 0] [Pa]");
+  RequirePositive("regulator.ramp_rate", p.regulator.ramp_rate, "[Pa/s]");
+}
+
+}  // namespace vacuum_gripper_sim

@@ -1,0 +1,350 @@
+#include "vacuum_gripper_sim/core/simulator.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <sstream>
+#include <stdexcept>
+#include <utility>
+
+#include "vacuum_gripper_sim/core/contact_stage.h"
+#include "vacuum_gripper_sim/core/elastic_body.h"
+#include "vacuum_gripper_sim/core/implicit_euler.h"
+#include "vacuum_gripper_sim/core/linear_solver.h"
+#include "vacuum_gripper_sim/core/stopwatch.h"
+#include "vacuum_gripper_sim/core/suction.h"
+
+namespace vacuum_gripper_sim {
+namespace {
+
+/// The nodes that may touch: those of the boundary that are not clamped, ascending.
+std::vector<int> SurfaceNodes(const TetMesh& mesh) {
+  std::vector<int> nodes(mesh.boundary_faces.data(),
+                         mesh.boundary_faces.data() + mesh.boundary_faces.size());
+  std::sort(nodes.begin(), nodes.end());
+  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  nodes.erase(std::remove_if(nodes.begin(), nodes.end(),
+                             [&](int node) {
+                               return std::binary_search(mesh.mount_nodes.begin(),
+                                                         mesh.mount_nodes.end(), node);
+                             }),
+              nodes.end());
+  return nodes;
+}
+
+/// What a step changes and an undone step gives back.
+struct State {
+  Eigen::Matrix3Xd x_W;  // positions, 3 by #nodes [m]
+  Eigen::Matrix3Xd v_W;  // velocities, 3 by #nodes [m/s]
+  GripState grip;
+};
+
+/// Volume between the wet surface and its edge: a cone over every wet point's area vector from the
+/// mean position of the points where the wet surface ends, in whose plane the edge lies. [m^3]
+double WetVolume(const CavitySurface& cavity, const std::vector<bool>& wet,
+                 const Eigen::Matrix3Xd& x_W, const Eigen::Matrix3Xd& area_vectors) {
+  Eigen::Vector3d apex = Eigen::Vector3d::Zero();
+  int num_edge_points = 0;
+  for (std::size_t i = 0; i < wet.size(); ++i) {
+    const auto& neighbours = cavity.neighbours[i];
+    const bool on_edge = wet[i] && std::any_of(neighbours.begin(), neighbours.end(), [&](int n) {
+                           return !wet[static_cast<std::size_t>(n)];
+                         });
+    if (!on_edge) continue;
+    apex += x_W.col(cavity.nodes[i]);
+    ++num_edge_points;
+  }
+  if (num_edge_points == 0) return 0.0;
+  apex /= num_edge_points;
+  double volume = 0.0;
+  for (std::size_t i = 0; i < wet.size(); ++i) {
+    if (!wet[i]) continue;
+    volume +=
+        (x_W.col(cavity.nodes[i]) - apex).dot(area_vectors.col(static_cast<Eigen::Index>(i))) / 3.0;
+  }
+  return volume;
+}
+
+}  // namespace
+
+Eigen::Isometry3d MountFromRest(const TetMesh& mesh) {
+  double top = -std::numeric_limits<double>::infinity();
+  for (const int node : mesh.mount_nodes) top = std::max(top, mesh.nodes(2, node));
+  Eigen::Isometry3d X_MR = Eigen::Isometry3d::Identity();
+  X_MR.linear() = Eigen::Vector3d(1.0, -1.0, -1.0).asDiagonal();
+  X_MR.translation() = Eigen::Vector3d(0.0, 0.0, top);
+  return X_MR;
+}
+
+class Simulator::Implementation {
+ public:
+  Implementation(TetMesh mesh, const SimulatorParameters& parameters, const Eigen::Isometry3d& X_WM)
+      : mesh_(std::move(mesh)),
+        parameters_(parameters),
+        cavity_(MakeCavitySurface(mesh_)),
+        rest_M_(MountFromRest(mesh_) * mesh_.nodes),
+        body_(mesh_, parameters.material),
+        system_(body_, mesh_.mount_nodes),
+        solver_(parameters.linear_solver),
+        stage_(system_, &solver_, SurfaceNodes(mesh_), parameters.contact),
+        suction_(cavity_, parameters.seal, parameters.regulator,
+                 parameters.material.young_modulus) {
+    Reset(X_WM);
+  }
+
+  void SetSurfaces(std::vector<RigidSurface> surfaces);
+  void Reset(const Eigen::Isometry3d& X_WM);
+  void Step(const Command& command);
+
+  // Neither moved nor copied: parts below point at each other.
+  Implementation(const Implementation&) = delete;
+  Implementation& operator=(const Implementation&) = delete;
+  ~Implementation() = default;
+
+  TetMesh mesh_;
+  SimulatorParameters parameters_;
+  CavitySurface cavity_;
+  std::vector<RigidSurface> surfaces_;
+  StepResult result_;
+
+ private:
+  Eigen::Matrix3Xd ClampedVelocityChange(const Eigen::Isometry3d& X_WM) const;
+  bool Advance(const Command& command);
+  void ReportWrench(const SuctionSolution& solution, const Eigen::Matrix3Xd& dv_c);
+  void ReportCavity(const SuctionSolution& solution);
+
+  Eigen::Matrix3Xd rest_M_;  // rest positions in the mount frame [m]
+  ElasticBody body_;
+  ImplicitEuler system_;
+  LinearSolver solver_;
+  ContactStage stage_;
+  Suction suction_;
+  State state_;
+};
+
+void Simulator::Implementation::SetSurfaces(std::vector<RigidSurface> surfaces) {
+  surfaces_ = std::move(surfaces);
+  stage_.ForgetForces();  // they were numbered by the old surfaces
+}
+
+void Simulator::Implementation::Reset(const Eigen::Isometry3d& X_WM) {
+  state_.x_W = X_WM * rest_M_;
+  state_.v_W = Eigen::Matrix3Xd::Zero(3, rest_M_.cols());
+  state_.grip = GripState();
+  stage_.ForgetForces();
+
+  const double time = result_.time;
+  result_ = StepResult();
+  result_.time = time;
+  result_.X_WM = X_WM;
+  result_.x_W = state_.x_W;
+  const std::vector<double> distance =
+      DetectProximity(surfaces_, cavity_.nodes, state_.x_W, 0.0).distance;
+  result_.gap = distance;
+  result_.classification = Classify(cavity_, distance, parameters_.seal.open_gap);
+  result_.bottleneck_gap = result_.classification.bottleneck_gap;
+}
+
+/// The mount's nodes end the step where the commanded pose puts them.
+Eigen::Matrix3Xd Simulator::Implementation::ClampedVelocityChange(
+    const Eigen::Isometry3d& X_WM) const {
+  const std::vector<int>& clamped = system_.clamped_nodes();
+  Eigen::Matrix3Xd dv_c(3, static_cast<Eigen::Index>(clamped.size()));
+  for (std::size_t i = 0; i < clamped.size(); ++i) {
+    const int node = clamped[i];
+    const Eigen::Vector3d target_W = X_WM * rest_M_.col(node);
+    dv_c.col(static_cast<Eigen::Index>(i)) =
+        (target_W - state_.x_W.col(node)) / parameters_.time_step - state_.v_W.col(node);
+  }
+  return dv_c;
+}
+
+void Simulator::Implementation::Step(const Command& command) {
+  State last_good = state_;
+  result_.timings = StepTimings();
+  result_.outcome = StepOutcome::kOk;
+  result_.message.clear();
+  bool done = false;
+  {
+    const Stopwatch stopwatch(&result_.timings.total);
+    done = Advance(command);
+  }
+  if (!done) {
+    state_ = std::move(last_good);
+    stage_.ForgetForces();
+  }
+  result_.time += parameters_.time_step;
+}
+
+/// One step h, item by item as [Bernardin, Sec. III-A]. False: the result says why, undo it.
+bool Simulator::Implementation::Advance(const Command& command) {
+  const double h = parameters_.time_step;
+  StepTimings* const timings = &result_.timings;
+  const auto fail = [&](StepOutcome outcome, const std::string& message) {
+    result_.outcome = outcome;
+    result_.message = message;
+    return false;
+  };
+  if (!IsRigidMotion(command.X_WM)) {
+    return fail(StepOutcome::kNonFinite, "the commanded mount pose is not a finite rigid motion");
+  }
+  if (!(command.pressure_setpoint <= 0.0 &&
+        command.pressure_setpoint >= parameters_.regulator.min_pressure)) {
+    return fail(StepOutcome::kNonFinite, "the set-point is not in [regulator.min_pressure, 0] Pa");
+  }
+
+  // 1) Free motion: equation (2) with lambda = 0.
+  const Eigen::Matrix3Xd dv_c = ClampedVelocityChange(command.X_WM);
+  {
+    const Stopwatch stopwatch(&timings->assembly);
+    system_.Linearize(state_.x_W, state_.v_W, h, parameters_.damping, parameters_.gravity);
+  }
+  {
+    const Stopwatch stopwatch(&timings->factorization);
+    if (!solver_.Compute(system_.A_ff())) {
+      return fail(StepOutcome::kNonFinite, "A is not positive definite");
+    }
+  }
+  Eigen::VectorXd dv_free;
+  {
+    const Stopwatch stopwatch(&timings->free_motion);
+    if (!solver_.Solve(system_.FreeRightHandSide(dv_c), &dv_free)) {
+      return fail(StepOutcome::kUnconverged, "free motion: conjugate gradients did not converge");
+    }
+  }
+  if (!dv_free.allFinite()) return fail(StepOutcome::kNonFinite, "the free motion is not finite");
+
+  // 2) to 4) Classification, constraint directions, W and the mixed complementarity problem.
+  SuctionSolution solution;
+  stage_.Begin(surfaces_, state_.x_W, state_.v_W, dv_free, dv_c, h);
+  if (!suction_.Solve(state_.x_W, command.pressure_setpoint, h, &stage_, &state_.grip, &solution,
+                      timings)) {
+    return fail(StepOutcome::kUnconverged, "a linear solve of the contacts did not converge");
+  }
+  if (!solution.contact.x_W.allFinite()) {
+    return fail(StepOutcome::kNonFinite, "the corrected motion is not finite");
+  }
+  const double missed = std::max(solution.contact.error, solution.contact.statistics.residual);
+  if (missed > parameters_.contact.acceptable_residual) {
+    std::ostringstream message;
+    message << "contact error " << missed << " m is above contact.acceptable_residual = "
+            << parameters_.contact.acceptable_residual << " m";
+    return fail(StepOutcome::kUnconverged, message.str());
+  }
+
+  // 5) Motion correction.
+  state_.v_W += system_.Scatter(solution.contact.dv_f, dv_c);
+  state_.x_W = solution.contact.x_W;
+
+  const Stopwatch stopwatch(&timings->correction);
+  result_.X_WM = command.X_WM;
+  result_.setpoint = command.pressure_setpoint;
+  ReportWrench(solution, dv_c);
+  ReportCavity(solution);
+  return true;
+}
+
+/// Force of the cup on its mount: what holds the clamped nodes, turned round. See ImplicitEuler.
+void Simulator::Implementation::ReportWrench(const SuctionSolution& solution,
+                                             const Eigen::Matrix3Xd& dv_c) {
+  const Eigen::Matrix3Xd reaction = system_.ClampedReaction(solution.contact.dv_f, dv_c);
+  Eigen::Vector3d force_W = Eigen::Vector3d::Zero();
+  Eigen::Vector3d torque_W = Eigen::Vector3d::Zero();
+  for (Eigen::Index i = 0; i < reaction.cols(); ++i) {
+    const int node = system_.clamped_nodes()[static_cast<std::size_t>(i)];
+    // Pressure and contact carry their share of the clamped rows themselves.
+    const Eigen::Vector3d on_mount_W =
+        -(reaction.col(i) - solution.load.col(node) - solution.contact.contact_force.col(node));
+    force_W += on_mount_W;
+    torque_W += (state_.x_W.col(node) - result_.X_WM.translation()).cross(on_mount_W);
+  }
+  const Eigen::Matrix3d R_MW = result_.X_WM.linear().transpose();
+  result_.force_M = R_MW * force_W;
+  result_.torque_M = R_MW * torque_W;
+}
+
+void Simulator::Implementation::ReportCavity(const SuctionSolution& solution) {
+  const GripState& grip = state_.grip;
+  result_.gauge_pressure = grip.pressure;
+  if (grip.sealed) {
+    result_.status =
+        grip.pressure == result_.setpoint ? SealStatus::kSealed : SealStatus::kRegulating;
+  } else {
+    result_.status = grip.lost ? SealStatus::kLost : SealStatus::kOpen;
+  }
+
+  result_.x_W = state_.x_W;
+  result_.classification = solution.classification;
+  result_.bottleneck_gap = solution.classification.bottleneck_gap;
+  const std::vector<int>& nodes = stage_.surface_nodes();
+  for (std::size_t i = 0; i < cavity_.nodes.size(); ++i) {
+    const auto place = std::lower_bound(nodes.begin(), nodes.end(), cavity_.nodes[i]);
+    result_.gap[i] = solution.contact.distance[static_cast<std::size_t>(place - nodes.begin())];
+  }
+
+  const Eigen::Matrix3Xd area_vectors = PointAreaVectors(cavity_, state_.x_W);
+  Eigen::Vector3d wet_area_W = Eigen::Vector3d::Zero();
+  for (std::size_t i = 0; i < cavity_.nodes.size(); ++i) {
+    if (solution.classification.wet[i]) {
+      wet_area_W += area_vectors.col(static_cast<Eigen::Index>(i));
+    }
+  }
+  result_.cavity_area = std::abs(wet_area_W.dot(result_.X_WM.linear().col(2)));
+  result_.cavity_volume = WetVolume(cavity_, solution.classification.wet, state_.x_W, area_vectors);
+
+  result_.contact_force = solution.contact.lambda.sum();
+  result_.num_contacts =
+      static_cast<std::uint32_t>((solution.contact.lambda.array() > 0.0).count());
+  result_.num_candidates = static_cast<std::uint32_t>(solution.contact.num_candidates);
+  result_.max_penetration = solution.contact.max_penetration;
+  result_.solver_iterations = solution.contact.statistics.iterations;
+  result_.solver_residual = solution.contact.statistics.residual;
+  result_.linear_iterations = solver_.iterations();
+  result_.factorizations = solver_.factorizations();
+}
+
+Simulator::Simulator(TetMesh mesh, const SimulatorParameters& parameters,
+                     const Eigen::Isometry3d& X_WM) {
+  Validate(parameters);
+  if (!IsRigidMotion(X_WM)) {
+    throw std::invalid_argument("the mount's initial pose is not a finite rigid motion");
+  }
+  implementation_ = std::make_unique<Implementation>(std::move(mesh), parameters, X_WM);
+}
+
+Simulator::~Simulator() = default;
+Simulator::Simulator(Simulator&&) noexcept = default;
+Simulator& Simulator::operator=(Simulator&&) noexcept = default;
+
+void Simulator::SetSurfaces(std::vector<RigidSurface> surfaces) {
+  for (const RigidSurface& surface : surfaces) Validate(surface);
+  implementation_->SetSurfaces(std::move(surfaces));
+}
+
+const std::vector<RigidSurface>& Simulator::surfaces() const { return implementation_->surfaces_; }
+
+void Simulator::SetSurfacePose(int index, const Eigen::Isometry3d& X_WS) {
+  RigidSurface moved = implementation_->surfaces_.at(static_cast<std::size_t>(index));
+  moved.X_WS = X_WS;
+  Validate(moved);
+  implementation_->surfaces_[static_cast<std::size_t>(index)] = std::move(moved);
+}
+
+const StepResult& Simulator::Step(const Command& command) {
+  implementation_->Step(command);
+  return implementation_->result_;
+}
+
+void Simulator::Reset(const Eigen::Isometry3d& X_WM) {
+  if (!IsRigidMotion(X_WM)) {
+    throw std::invalid_argument("the mount's pose at reset is not a finite rigid motion");
+  }
+  implementation_->Reset(X_WM);
+}
+
+const StepResult& Simulator::result() const { return implementation_->result_; }
+const TetMesh& Simulator::mesh() const { return implementation_->mesh_; }
+const CavitySurface& Simulator::cavity() const { return implementation_->cavity_; }
+const SimulatorParameters& Simulator::parameters() const { return implementation_->parameters_; }
+
+}  // namespace vacuum_gripper_sim

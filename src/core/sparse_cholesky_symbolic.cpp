@@ -1,0 +1,269 @@
+// Ordering and structure: everything that depends on the sparsity alone.
+#include <Eigen/OrderingMethods>
+#include <algorithm>
+#include <numeric>
+#include <stdexcept>
+
+#include "vacuum_gripper_sim/core/sparse_cholesky.h"
+
+namespace vacuum_gripper_sim {
+namespace {
+
+/// Neighbours of every node, itself excluded, ascending.
+std::vector<std::vector<int>> NodeGraph(const Eigen::SparseMatrix<double>& A) {
+  std::vector<std::vector<int>> graph(static_cast<std::size_t>(A.cols() / 3));
+  for (int column = 0; column < A.cols(); ++column) {
+    const int b = column / 3;
+    for (Eigen::SparseMatrix<double>::InnerIterator entry(A, column); entry; ++entry) {
+      const int a = static_cast<int>(entry.row()) / 3;
+      if (a == b) continue;
+      graph[static_cast<std::size_t>(a)].push_back(b);
+      graph[static_cast<std::size_t>(b)].push_back(a);
+    }
+  }
+  for (auto& neighbours : graph) {
+    std::sort(neighbours.begin(), neighbours.end());
+    neighbours.erase(std::unique(neighbours.begin(), neighbours.end()), neighbours.end());
+  }
+  return graph;
+}
+
+/// Fill-reducing elimination order: order[k] is the k-th node.
+std::vector<int> MinimumDegreeOrder(const std::vector<std::vector<int>>& graph) {
+  const int size = static_cast<int>(graph.size());
+  std::vector<Eigen::Triplet<double>> entries;
+  for (int a = 0; a < size; ++a) {
+    entries.emplace_back(a, a, 1.0);
+    for (const int b : graph[static_cast<std::size_t>(a)]) entries.emplace_back(a, b, 1.0);
+  }
+  Eigen::SparseMatrix<double> pattern(size, size);
+  pattern.setFromTriplets(entries.begin(), entries.end());
+  Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> inverse;
+  Eigen::AMDOrdering<int>()(pattern, inverse);
+  return {inverse.indices().data(), inverse.indices().data() + size};
+}
+
+/// Parent of each position in the elimination tree (Liu's algorithm with path compression).
+std::vector<int> EliminationTree(const std::vector<std::vector<int>>& graph,
+                                 const std::vector<int>& node_at,
+                                 const std::vector<int>& position) {
+  std::vector<int> parent(graph.size(), -1);
+  std::vector<int> ancestor(graph.size(), -1);
+  for (int k = 0; k < static_cast<int>(graph.size()); ++k) {
+    const int node = node_at[static_cast<std::size_t>(k)];
+    for (const int neighbour : graph[static_cast<std::size_t>(node)]) {
+      int i = position[static_cast<std::size_t>(neighbour)];
+      while (i != -1 && i < k) {
+        const int next = ancestor[static_cast<std::size_t>(i)];
+        ancestor[static_cast<std::size_t>(i)] = k;
+        if (next == -1) parent[static_cast<std::size_t>(i)] = k;
+        i = next;
+      }
+    }
+  }
+  return parent;
+}
+
+/// Positions in depth-first order, children before parents.
+std::vector<int> Postorder(const std::vector<int>& parent) {
+  const int size = static_cast<int>(parent.size());
+  std::vector<std::vector<int>> children(parent.size());
+  std::vector<int> stack;
+  for (int k = size - 1; k >= 0; --k) {
+    const int above = parent[static_cast<std::size_t>(k)];
+    if (above < 0) {
+      stack.push_back(k);
+    } else {
+      children[static_cast<std::size_t>(above)].push_back(k);
+    }
+  }
+  std::vector<int> order;
+  while (!stack.empty()) {  // parents before children, then turned round
+    const int k = stack.back();
+    stack.pop_back();
+    order.push_back(k);
+    const auto& below = children[static_cast<std::size_t>(k)];
+    stack.insert(stack.end(), below.begin(), below.end());
+  }
+  std::reverse(order.begin(), order.end());
+  return order;
+}
+
+std::vector<int> Inverse(const std::vector<int>& order) {
+  std::vector<int> position(order.size());
+  for (std::size_t k = 0; k < order.size(); ++k) {
+    position[static_cast<std::size_t>(order[k])] = static_cast<int>(k);
+  }
+  return position;
+}
+
+/// Is merging worth its zeros? Small fronts are slow: there, many zeros are worth it.
+bool WorthMerging(int merged_width, double zero_share) {
+  if (merged_width <= 2) return true;
+  if (merged_width <= 6) return zero_share < 0.6;
+  if (merged_width <= 16) return zero_share < 0.15;
+  return zero_share < 0.05;
+}
+
+}  // namespace
+
+void SparseCholesky::Analyze(const Eigen::SparseMatrix<double>& A) {
+  if (A.rows() != A.cols() || A.cols() % 3 != 0) {
+    throw std::invalid_argument("SparseCholesky: the matrix is not made of 3 by 3 node blocks");
+  }
+  size_ = A.cols();
+  const std::vector<std::vector<int>> graph = NodeGraph(A);
+  Order(graph);
+  FindSupernodes(graph);
+  MergeSmallSupernodes();
+  LinkSupernodes();
+  MapEntries(A);
+}
+
+void SparseCholesky::Order(const std::vector<std::vector<int>>& graph) {
+  const std::vector<int> by_degree = MinimumDegreeOrder(graph);
+  const std::vector<int> postorder =
+      Postorder(EliminationTree(graph, by_degree, Inverse(by_degree)));
+  node_at_.resize(graph.size());
+  for (std::size_t k = 0; k < graph.size(); ++k) {
+    node_at_[k] = by_degree[static_cast<std::size_t>(postorder[k])];
+  }
+  position_ = Inverse(node_at_);
+  tree_ = EliminationTree(graph, node_at_, position_);
+}
+
+void SparseCholesky::FindSupernodes(const std::vector<std::vector<int>>& graph) {
+  // Structure of every column of L: its own entries of A and what its children leave to it.
+  std::vector<std::vector<int>> structure(graph.size());
+  for (std::size_t k = 0; k < graph.size(); ++k) {
+    std::vector<int>& rows = structure[k];
+    rows.push_back(static_cast<int>(k));
+    for (const int neighbour : graph[static_cast<std::size_t>(node_at_[k])]) {
+      const int row = position_[static_cast<std::size_t>(neighbour)];
+      if (row > static_cast<int>(k)) rows.push_back(row);
+    }
+  }
+  for (std::size_t k = 0; k < graph.size(); ++k) {
+    std::vector<int>& rows = structure[k];
+    std::sort(rows.begin(), rows.end());
+    rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
+    if (tree_[k] < 0) continue;
+    std::vector<int>& above = structure[static_cast<std::size_t>(tree_[k])];
+    above.insert(above.end(), rows.begin() + 1, rows.end());
+    // Kept short, or a parent of many children grows quadratically.
+    std::sort(above.begin(), above.end());
+    above.erase(std::unique(above.begin(), above.end()), above.end());
+  }
+
+  supernodes_.clear();
+  for (std::size_t k = 0; k < graph.size(); ++k) {
+    const bool continues = k > 0 && tree_[k - 1] == static_cast<int>(k) &&
+                           structure[k - 1].size() == structure[k].size() + 1;
+    if (continues) {
+      ++supernodes_.back().width;
+    } else {
+      Supernode supernode;
+      supernode.first = static_cast<int>(k);
+      supernode.width = 1;
+      supernode.rows = structure[k];
+      supernodes_.push_back(std::move(supernode));
+    }
+  }
+}
+
+/// Merges a supernode into the one eliminated right after it, where that is its parent.
+void SparseCholesky::MergeSmallSupernodes() {
+  std::vector<Supernode> merged;
+  std::vector<double> zeros;  // blocks stored for nothing, by merged supernode
+  for (Supernode& supernode : supernodes_) {
+    merged.push_back(std::move(supernode));
+    zeros.push_back(0.0);
+    while (merged.size() > 1) {
+      Supernode& lower = merged[merged.size() - 2];
+      Supernode& upper = merged.back();
+      const bool is_parent =
+          lower.num_below() > 0 &&
+          lower.rows[static_cast<std::size_t>(lower.width)] < upper.first + upper.width;
+      if (!is_parent) break;
+      const double added =
+          static_cast<double>(lower.width) * (lower.width + upper.num_rows() - lower.num_rows());
+      const int width = lower.width + upper.width;
+      const double blocks = static_cast<double>(width) * (lower.width + upper.num_rows());
+      const double all_zeros = zeros[zeros.size() - 2] + zeros.back() + added;
+      if (!WorthMerging(width, all_zeros / blocks)) break;
+      std::vector<int> rows(static_cast<std::size_t>(lower.width));
+      std::iota(rows.begin(), rows.end(), lower.first);
+      rows.insert(rows.end(), upper.rows.begin(), upper.rows.end());
+      lower.rows = std::move(rows);
+      lower.width = width;
+      zeros[zeros.size() - 2] = all_zeros;
+      merged.pop_back();
+      zeros.pop_back();
+    }
+  }
+  supernodes_ = std::move(merged);
+}
+
+void SparseCholesky::LinkSupernodes() {
+  supernode_of_.resize(node_at_.size());
+  for (std::size_t s = 0; s < supernodes_.size(); ++s) {
+    const Supernode& supernode = supernodes_[s];
+    std::fill_n(supernode_of_.begin() + supernode.first, supernode.width, static_cast<int>(s));
+  }
+  std::size_t offset = 0;
+  for (std::size_t s = 0; s < supernodes_.size(); ++s) {
+    Supernode& supernode = supernodes_[s];
+    supernode.offset = offset;
+    offset += 9 * supernode.rows.size() * static_cast<std::size_t>(supernode.width);
+    if (supernode.num_below() == 0) continue;
+    supernode.parent = supernode_of_[static_cast<std::size_t>(
+        supernode.rows[static_cast<std::size_t>(supernode.width)])];
+    Supernode& parent = supernodes_[static_cast<std::size_t>(supernode.parent)];
+    parent.children.push_back(static_cast<int>(s));
+    for (std::size_t r = static_cast<std::size_t>(supernode.width); r < supernode.rows.size();
+         ++r) {
+      const auto place =
+          std::lower_bound(parent.rows.begin(), parent.rows.end(), supernode.rows[r]);
+      supernode.in_parent.push_back(static_cast<int>(place - parent.rows.begin()));
+    }
+  }
+  factor_.resize(offset);
+}
+
+void SparseCholesky::MapEntries(const Eigen::SparseMatrix<double>& A) {
+  struct Entry {
+    int supernode;
+    int value;
+    int place;
+  };
+  std::vector<Entry> found;
+  for (int column = 0; column < A.cols(); ++column) {
+    for (int value = A.outerIndexPtr()[column]; value < A.outerIndexPtr()[column + 1]; ++value) {
+      const int row = A.innerIndexPtr()[value];
+      // Position of row and column in elimination order; the later one is the row of L.
+      int i = 3 * position_[static_cast<std::size_t>(row / 3)] + row % 3;
+      int j = 3 * position_[static_cast<std::size_t>(column / 3)] + column % 3;
+      if (i < j) std::swap(i, j);
+      const int s = supernode_of_[static_cast<std::size_t>(j / 3)];
+      const Supernode& supernode = supernodes_[static_cast<std::size_t>(s)];
+      const auto place = std::lower_bound(supernode.rows.begin(), supernode.rows.end(), i / 3);
+      const int panel_row = 3 * static_cast<int>(place - supernode.rows.begin()) + i % 3;
+      const int panel_column = j - 3 * supernode.first;
+      found.push_back({s, value, panel_row + panel_column * 3 * supernode.num_rows()});
+    }
+  }
+  std::stable_sort(found.begin(), found.end(),
+                   [](const Entry& a, const Entry& b) { return a.supernode < b.supernode; });
+  entries_.clear();
+  std::size_t next = 0;
+  for (std::size_t s = 0; s < supernodes_.size(); ++s) {
+    supernodes_[s].entries_begin = next;
+    while (next < found.size() && found[next].supernode == static_cast<int>(s)) {
+      entries_.emplace_back(found[next].value, found[next].place);
+      ++next;
+    }
+    supernodes_[s].entries_end = next;
+  }
+}
+
+}  // namespace vacuum_gripper_sim

@@ -1,0 +1,124 @@
+#include "vacuum_gripper_sim/core/suction.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "vacuum_gripper_sim/core/stopwatch.h"
+
+namespace vacuum_gripper_sim {
+
+Suction::Suction(const CavitySurface& cavity, const SealParameters& seal,
+                 const RegulatorParameters& regulator, double young_modulus)
+    : cavity_(&cavity), seal_(seal), regulator_(regulator), young_modulus_(young_modulus) {}
+
+Classification Suction::ClassifyEnd(const ContactSolution& contact, const ContactStage& stage,
+                                    const std::vector<bool>& was_wet) const {
+  // Loaded points are ordered by their contact pressure. As a length it is the depth by which an
+  // elastic half space under a patch of the point's size would be indented, so that it compares
+  // with a gap; only its order decides anything.
+  std::vector<double> phi(cavity_->nodes.size());
+  for (std::size_t i = 0; i < phi.size(); ++i) {
+    const int node = cavity_->nodes[i];
+    const double force = contact.lambda(node);
+    if (force > 0.0) {
+      const double area =
+          std::max(area_vectors_.col(static_cast<Eigen::Index>(i)).norm(), 1e-12);  // [m^2]
+      phi[i] = -force / (young_modulus_ * std::sqrt(area));
+    } else {
+      const auto& nodes = stage.surface_nodes();
+      const auto place = std::lower_bound(nodes.begin(), nodes.end(), node) - nodes.begin();
+      phi[i] = contact.distance[static_cast<std::size_t>(place)];
+    }
+  }
+  return Classify(*cavity_, phi, seal_.open_gap, was_wet);
+}
+
+bool Suction::SolveWith(const std::vector<bool>& wet, double pressure, ContactStage* stage,
+                        SuctionSolution* solution, StepTimings* timings) const {
+  solution->load.setZero(3, num_nodes_);
+  if (pressure != 0.0) {
+    for (std::size_t i = 0; i < wet.size(); ++i) {
+      if (!wet[i]) continue;
+      solution->load.col(cavity_->nodes[i]) +=
+          pressure * area_vectors_.col(static_cast<Eigen::Index>(i));
+    }
+  }
+  if (!stage->Solve(solution->load, &solution->contact, timings)) return false;
+  const Stopwatch stopwatch(&timings->classification);
+  solution->classification =
+      ClassifyEnd(solution->contact, *stage, pressure != 0.0 ? wet : std::vector<bool>());
+  return true;
+}
+
+bool Suction::HoldSeal(double pressure, ContactStage* stage, GripState* state,
+                       SuctionSolution* solution, StepTimings* timings) const {
+  std::vector<std::vector<bool>> seen;
+  std::vector<bool> wet = state->classification.wet;
+  for (int round = 0; round < seal_.max_rounds; ++round) {
+    if (!SolveWith(wet, pressure, stage, solution, timings)) return false;
+    seen.push_back(wet);
+    wet = solution->classification.wet;
+    if (std::find(seen.begin(), seen.end(), wet) != seen.end()) break;  // fixed point or cycle
+  }
+  if (solution->classification.bottleneck_gap <= seal_.open_gap) {
+    state->pressure = pressure;
+    return true;
+  }
+  state->sealed = false;
+  state->lost = true;
+  state->pressure = 0.0;
+  return SolveWith({}, 0.0, stage, solution, timings);
+}
+
+bool Suction::TryToSeal(double pressure, ContactStage* stage, GripState* state,
+                        SuctionSolution* solution, StepTimings* timings) const {
+  if (!SolveWith({}, 0.0, stage, solution, timings)) return false;  // (1)
+  if (solution->classification.bottleneck_gap >= seal_.close_gap) return true;
+
+  std::vector<bool> wet = solution->classification.wet;
+  for (int i = 1; i <= seal_.ramp_increments; ++i) {  // (2)
+    if (!SolveWith(wet, pressure * i / seal_.ramp_increments, stage, solution, timings)) {
+      return false;
+    }
+    wet = solution->classification.wet;
+    if (solution->classification.bottleneck_gap > seal_.open_gap) {
+      return SolveWith({}, 0.0, stage, solution, timings);  // suction opens it: no seal yet
+    }
+  }
+  if (!SolveWith(wet, pressure, stage, solution, timings)) return false;  // (3)
+  if (solution->classification.bottleneck_gap > seal_.open_gap) {
+    return SolveWith({}, 0.0, stage, solution, timings);
+  }
+  state->sealed = true;
+  state->lost = false;
+  state->pressure = pressure;
+  return true;
+}
+
+bool Suction::Solve(const Eigen::Matrix3Xd& x_W, double setpoint, double h, ContactStage* stage,
+                    GripState* state, SuctionSolution* solution, StepTimings* timings) {
+  num_nodes_ = x_W.cols();
+  area_vectors_ = PointAreaVectors(*cavity_, x_W);
+  if (setpoint == 0.0) state->lost = false;
+
+  const double largest_change = regulator_.ramp_rate * h;
+  const double change = std::clamp(setpoint - state->pressure, -largest_change, largest_change);
+  // Not pressure + change where the set-point is in reach: it is to be met exactly.
+  const double pressure =
+      std::abs(setpoint - state->pressure) <= largest_change ? setpoint : state->pressure + change;
+
+  bool solved = false;
+  if (state->sealed && pressure != 0.0) {
+    solved = HoldSeal(pressure, stage, state, solution, timings);
+  } else if (pressure != 0.0) {
+    solved = TryToSeal(pressure, stage, state, solution, timings);
+  } else {
+    state->sealed = false;
+    state->pressure = 0.0;
+    solved = SolveWith({}, 0.0, stage, solution, timings);
+  }
+  state->classification = solution->classification;
+  return solved;
+}
+
+}  // namespace vacuum_gripper_sim

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <geometry_msgs/PoseStamped.h>
+#include <tf2_ros/buffer.h>
+
+#include <Eigen/Geometry>
+#include <string>
+
+namespace vacuum_gripper_sim {
+
+/// How fast the mount may go.
+struct MotionLimits {
+  double max_speed{0.0};          ///< [m/s] > 0
+  double max_angular_speed{0.0};  ///< [rad/s] > 0
+};
+
+/** The thing that holds the mount: goes to where it is told, no faster than its limits, so that a
+ far command is a fast motion and not a teleport through the world. Within the limits the mount is
+ where it is told to be, exactly, one step later.
+
+ When the simulator had to undo a step, the next attempt goes half as far, again and again, and full
+ strides come back as steps succeed. */
+class Actuator {
+ public:
+  /// @param X_WM Where the mount starts. @param time_step h [s].
+  Actuator(const Eigen::Isometry3d& X_WM, const MotionLimits& limits, double time_step);
+
+  /// Where to go. @pre A rigid motion.
+  void SetTarget(const Eigen::Isometry3d& X_WM) { X_WM_target_ = X_WM; }
+  const Eigen::Isometry3d& target() const { return X_WM_target_; }
+  /// Puts the mount at its target at once, for a reset.
+  void JumpToTarget();
+
+  /// Pose of the mount at the end of the step to come.
+  Eigen::Isometry3d NextPose() const;
+  /// Tells how the step went: where the mount is now and whether the step was undone.
+  void OnStep(const Eigen::Isometry3d& X_WM, bool undone);
+
+  /// True while the mount is still on its way. @param distance Tolerance [m].
+  bool IsBehind(double distance) const;
+
+ private:
+  MotionLimits limits_;
+  double time_step_;  // [s]
+  Eigen::Isometry3d X_WM_;
+  Eigen::Isometry3d X_WM_target_;
+  double stride_{1.0};  // Part of the motion that the next step makes, (0, 1].
+};
+
+/** Turns a pose command into the mount's pose in the world.
+
+ The command's frame is looked up at the command's stamp, or as tf knows it last when the stamp is
+ zero or tf has nothing for that time (a command stamped "now" is always ahead of tf).
+
+ @throws std::invalid_argument naming the field, its value and what is allowed. */
+Eigen::Isometry3d ResolvePoseCommand(const geometry_msgs::PoseStamped& command,
+                                     const std::string& world_frame, const tf2_ros::Buffer& tf);
+
+/** Latest pose of a tf frame in the world.
+ @param[out] stamp When tf measured it; zero for a static or identical frame. May be null.
+ @throws tf2::TransformException if tf does not know it. */
+Eigen::Isometry3d LookUpFrame(const std::string& frame, const std::string& world_frame,
+                              const tf2_ros::Buffer& tf, ros::Time* stamp);
+
+}  // namespace vacuum_gripper_sim

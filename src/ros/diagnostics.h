@@ -1,0 +1,66 @@
+#pragma once
+
+#include <diagnostic_updater/diagnostic_updater.h>
+#include <ros/time.h>
+
+#include <string>
+
+#include "vacuum_gripper_sim/core/step_result.h"
+
+namespace vacuum_gripper_sim {
+
+/** Counts what the steps did and reports it on /diagnostics.
+
+ Figures are those since the previous report, counters those since the start. Reports go out by wall
+ time, so a paused /clock still shows a living node. */
+class Diagnostics {
+ public:
+  /** @param time_step        h [s], also the budget of a step.
+      @param solver_tolerance Residual above which a step counts as not converged. [m] */
+  Diagnostics(const std::string& hardware_id, double time_step, double solver_tolerance);
+
+  /** @param wall_time   What the step took, publishing included. [s]
+      @param met_deadline False if it ended after its period. */
+  void OnStep(const StepResult& result, double wall_time, bool met_deadline);
+  /// The simulation could not be continued and began anew.
+  void OnFailure(const std::string& message);
+  /// A set-point was accepted, as a message or by a service.
+  void OnSetpoint() { setpoint_time_ = ros::WallTime::now(); }
+  /// Steps that were skipped because the clock ran away, since the start.
+  void SetSkippedSteps(long count) { skipped_ = count; }
+
+  /// Publishes a report if one is due.
+  void Update();
+
+ private:
+  struct Window {
+    ros::WallTime begin{ros::WallTime::now()};
+    int steps{0};
+    int undone{0};
+    int unconverged{0};
+    int late{0};
+    int max_iterations{0};
+    double max_residual{0.0};   // [m]
+    double sum_step_time{0.0};  // [s]
+    double max_step_time{0.0};  // [s]
+    long skipped{0};            // Counter at the window's begin.
+    std::string message;        // Of the last step that was undone.
+  };
+
+  void Report(diagnostic_updater::DiagnosticStatusWrapper& status);
+  void Summarize(diagnostic_updater::DiagnosticStatusWrapper* status) const;
+
+  double time_step_;         // [s]
+  double solver_tolerance_;  // [m]
+  long total_steps_{0};
+  long missed_deadlines_{0};
+  long undone_steps_{0};
+  long skipped_{0};
+  unsigned contacts_{0};
+  ros::WallTime setpoint_time_;
+  ros::WallTime next_report_;
+  Window window_;
+  diagnostic_updater::Updater updater_;
+};
+
+}  // namespace vacuum_gripper_sim

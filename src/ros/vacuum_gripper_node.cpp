@@ -1,0 +1,267 @@
+#include "vacuum_gripper_node.h"
+
+#include <ros/callback_queue.h>
+#include <ros/ros.h>
+#include <std_msgs/Bool.h>
+#include <tf2/exceptions.h>
+
+#include <cmath>
+#include <sstream>
+#include <stdexcept>
+#include <utility>
+
+#include "messages.h"
+#include "vacuum_gripper_sim/core/gmsh_reader.h"
+
+namespace vacuum_gripper_sim {
+namespace {
+
+constexpr std::uint32_t kQueueSize = 10;
+constexpr double kMountIsBehind = 0.01;  // Distance to mount_frame that is worth a warning. [m]
+
+const char* NameOf(SealStatus status) {
+  switch (status) {
+    case SealStatus::kOpen:
+      return "open";
+    case SealStatus::kSealed:
+      return "sealed";
+    case SealStatus::kRegulating:
+      return "airtight, regulating";
+    case SealStatus::kLost:
+      return "lost";
+  }
+  return "unknown";
+}
+
+}  // namespace
+
+VacuumGripperNode::VacuumGripperNode(const ros::NodeHandle& private_nh)
+    : nh_(private_nh),
+      parameters_(ReadNodeParameters(private_nh)),
+      simulator_(ReadGmsh(parameters_.cup.mesh_file), parameters_.simulator, parameters_.X_WM),
+      actuator_(parameters_.X_WM, parameters_.motion_limits, parameters_.simulator.time_step),
+      world_(parameters_.scene_description, parameters_.world_frame),
+      painter_(simulator_.mesh(), simulator_.cavity()),
+      schedule_(parameters_.simulator.time_step, ros::Time::isSimTime()),
+      diagnostics_(parameters_.cup.name, parameters_.simulator.time_step,
+                   parameters_.simulator.contact.tolerance) {
+  AdvertiseAndSubscribe();
+  PublishState(ros::Time::now(), simulator_.result());
+  ROS_INFO("cup %s: %d nodes, %d %s elements, %g Hz", parameters_.cup.name.c_str(),
+           simulator_.mesh().num_nodes(), simulator_.mesh().num_elements(),
+           simulator_.mesh().quadratic() ? "quadratic" : "linear", parameters_.rate);
+}
+
+void VacuumGripperNode::AdvertiseAndSubscribe() {
+  constexpr bool kLatched = true;
+  wrench_publisher_ = nh_.advertise<geometry_msgs::WrenchStamped>("wrench", kQueueSize);
+  seal_publisher_ = nh_.advertise<SealState>("seal_state", kQueueSize, kLatched);
+  pressure_publisher_ = nh_.advertise<sensor_msgs::FluidPressure>("pressure", kQueueSize);
+  points_publisher_ = nh_.advertise<sensor_msgs::PointCloud2>("surface_points", 2);
+  markers_publisher_ = nh_.advertise<visualization_msgs::MarkerArray>("markers", 2);
+  grasping_publisher_ = nh_.advertise<std_msgs::Bool>("grasping", kQueueSize, kLatched);
+
+  const ros::TransportHints hints = ros::TransportHints().tcpNoDelay();
+  setpoint_subscriber_ = nh_.subscribe("pressure_setpoint", kQueueSize,
+                                       &VacuumGripperNode::OnPressureSetpoint, this, hints);
+  if (parameters_.actuator == ActuatorSource::kPoseCommand) {
+    pose_subscriber_ =
+        nh_.subscribe("pose_command", kQueueSize, &VacuumGripperNode::OnPoseCommand, this, hints);
+  }
+  on_server_ = nh_.advertiseService("on", &VacuumGripperNode::OnOn, this);
+  off_server_ = nh_.advertiseService("off", &VacuumGripperNode::OnOff, this);
+  reset_server_ = nh_.advertiseService("reset", &VacuumGripperNode::OnReset, this);
+}
+
+void VacuumGripperNode::Run() {
+  while (ros::ok()) {
+    switch (schedule_.Poll(ros::Time::now())) {
+      case StepSchedule::Event::kWait:
+        break;
+      case StepSchedule::Event::kJumpedBack:
+        ROS_WARN("time jumped back: the cup is reset");
+        tf_buffer_.clear();
+        ResetCup();
+        break;
+      case StepSchedule::Event::kStep:
+        Step(schedule_.StampOfStep(ros::Time::now()));
+        break;
+    }
+    diagnostics_.Update();
+    ros::getGlobalCallbackQueue()->callAvailable(schedule_.TimeToWait(ros::Time::now()));
+  }
+}
+
+void VacuumGripperNode::Step(const ros::Time& stamp) {
+  const ros::WallTime begin = ros::WallTime::now();
+  world_.Update(tf_buffer_, &simulator_);
+  if (parameters_.actuator == ActuatorSource::kTf) FollowMountFrame();
+
+  Command command;
+  command.X_WM = actuator_.NextPose();
+  command.pressure_setpoint = setpoint_;
+  const StepResult& result = AdvanceSimulator(command);
+  const bool undone = result.outcome != StepOutcome::kOk;
+  actuator_.OnStep(result.X_WM, undone);
+  if (undone && throttle_.Pass("undone")) {
+    ROS_ERROR("step undone, last good state restored: %s", result.message.c_str());
+  }
+  Publish(stamp, result);
+
+  const bool met_deadline = schedule_.OnStepFinished(ros::Time::now());
+  diagnostics_.SetSkippedSteps(schedule_.skipped_steps());
+  diagnostics_.OnStep(result, (ros::WallTime::now() - begin).toSec(), met_deadline);
+}
+
+const StepResult& VacuumGripperNode::AdvanceSimulator(const Command& command) {
+  try {
+    return simulator_.Step(command);
+  } catch (const std::exception& error) {
+    // Not a bad step but a broken state: start over rather than leave the robot without a gripper.
+    ROS_ERROR("the simulation failed and the cup is reset: %s", error.what());
+    diagnostics_.OnFailure(error.what());
+    ResetCup();
+    return simulator_.result();
+  }
+}
+
+// --- Commands ------------------------------------------------------------------------------------
+
+void VacuumGripperNode::OnPressureSetpoint(const PressureSetpoint& message) {
+  const double pressure = message.gauge_pressure;
+  const double minimum = parameters_.simulator.regulator.min_pressure;
+  std::string reason;
+  if (!std::isfinite(pressure)) {
+    reason = "not finite";
+  } else if (pressure > 0.0) {
+    reason = "positive (suction is negative gauge pressure)";
+  } else if (pressure < minimum) {
+    reason = "below regulator/min_pressure";
+  } else {
+    SetSetpoint(pressure);
+    return;
+  }
+  if (throttle_.Pass("setpoint " + reason)) {
+    ROS_WARN("%s refused: gauge_pressure = %g Pa is %s; allowed: %g .. 0 Pa; %g Pa stays",
+             setpoint_subscriber_.getTopic().c_str(), pressure, reason.c_str(), minimum, setpoint_);
+  }
+}
+
+void VacuumGripperNode::OnPoseCommand(const geometry_msgs::PoseStamped& message) {
+  try {
+    actuator_.SetTarget(ResolvePoseCommand(message, parameters_.world_frame, tf_buffer_));
+  } catch (const std::invalid_argument& error) {
+    const std::string reason = error.what();
+    if (throttle_.Pass("pose " + reason.substr(0, reason.find('=')))) {
+      ROS_WARN("%s refused: %s; the last good pose stays", pose_subscriber_.getTopic().c_str(),
+               reason.c_str());
+    }
+  }
+}
+
+void VacuumGripperNode::FollowMountFrame() {
+  const std::string& frame = parameters_.mount_frame;
+  try {
+    actuator_.SetTarget(LookUpFrame(frame, parameters_.world_frame, tf_buffer_, nullptr));
+  } catch (const tf2::TransformException& error) {
+    if (throttle_.Pass("mount")) {
+      ROS_WARN("tf cannot place mount_frame '%s' in '%s' (%s): the mount stays where it is",
+               frame.c_str(), parameters_.world_frame.c_str(), error.what());
+    }
+    return;
+  }
+  if (!mount_frame_seen_) {
+    mount_frame_seen_ = true;  // It begins there, instead of flying in from the initial pose.
+    actuator_.JumpToTarget();
+    simulator_.Reset(actuator_.target());
+  } else if (actuator_.IsBehind(kMountIsBehind) && throttle_.Pass("behind")) {
+    ROS_WARN("the mount cannot keep up with mount_frame '%s': max_speed is %g m/s", frame.c_str(),
+             parameters_.motion_limits.max_speed);
+  }
+}
+
+bool VacuumGripperNode::OnOn(std_srvs::Empty::Request&, std_srvs::Empty::Response&) {
+  SetSetpoint(parameters_.simulator.regulator.default_pressure);
+  return true;
+}
+
+bool VacuumGripperNode::OnOff(std_srvs::Empty::Request&, std_srvs::Empty::Response&) {
+  SetSetpoint(0.0);
+  return true;
+}
+
+bool VacuumGripperNode::OnReset(std_srvs::Trigger::Request&,
+                                std_srvs::Trigger::Response& response) {
+  ResetCup();
+  const Eigen::Vector3d p = actuator_.target().translation();
+  std::ostringstream message;
+  message << "rest shape at [" << p.x() << ", " << p.y() << ", " << p.z() << "] m in "
+          << parameters_.world_frame << ", vented";
+  response.message = message.str();
+  response.success = true;
+  return true;
+}
+
+void VacuumGripperNode::SetSetpoint(double gauge_pressure) {
+  setpoint_ = gauge_pressure;
+  diagnostics_.OnSetpoint();
+}
+
+void VacuumGripperNode::ResetCup() {
+  setpoint_ = 0.0;
+  actuator_.JumpToTarget();
+  simulator_.Reset(actuator_.target());
+  PublishState(ros::Time::now(), simulator_.result());
+}
+
+// --- Results -------------------------------------------------------------------------------------
+
+void VacuumGripperNode::Publish(const ros::Time& stamp, const StepResult& result) {
+  const std_msgs::Header cup_header = MakeHeader(stamp, parameters_.cup_frame);
+  const std_msgs::Header world_header = MakeHeader(stamp, parameters_.world_frame);
+  if (parameters_.actuator == ActuatorSource::kPoseCommand) {
+    tf_broadcaster_.sendTransform(ToTransform(result, parameters_.cup_frame, world_header));
+  }
+  wrench_publisher_.publish(ToWrench(result, cup_header));
+  pressure_publisher_.publish(ToFluidPressure(result, parameters_.ambient_pressure, cup_header));
+  PublishState(stamp, result);
+  if (points_publisher_.getNumSubscribers() > 0) {
+    points_publisher_.publish(ToPointCloud(result, simulator_.cavity(), world_header));
+  }
+  PublishMarkers(world_header, result);
+}
+
+void VacuumGripperNode::PublishState(const ros::Time& stamp, const StepResult& result) {
+  seal_publisher_.publish(ToSealState(result, MakeHeader(stamp, parameters_.cup_frame)));
+  const bool grasping = IsGrasping(result);
+  if (grasping != grasping_ || !grasping_published_) {
+    std_msgs::Bool message;
+    message.data = grasping;
+    grasping_publisher_.publish(message);
+    grasping_ = grasping;
+    grasping_published_ = true;
+  }
+  if (result.status != last_status_) {
+    ROS_INFO("seal: %s (%.0f Pa)", NameOf(result.status), result.gauge_pressure);
+    last_status_ = result.status;
+  }
+}
+
+void VacuumGripperNode::PublishMarkers(const std_msgs::Header& world_header,
+                                       const StepResult& result) {
+  // Paced by wall time: it is people who look.
+  const ros::WallTime now = ros::WallTime::now();
+  if (markers_publisher_.getNumSubscribers() == 0 || now < next_display_) return;
+  next_display_ = now + ros::WallDuration(1.0 / parameters_.display_rate);
+  markers_publisher_.publish(painter_.Paint(result, world_header));
+}
+
+std_msgs::Header VacuumGripperNode::MakeHeader(const ros::Time& stamp,
+                                               const std::string& frame) const {
+  std_msgs::Header header;
+  header.stamp = stamp;
+  header.frame_id = frame;
+  return header;
+}
+
+}  // namespace vacuum_gripper_sim

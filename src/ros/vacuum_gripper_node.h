@@ -1,0 +1,82 @@
+#pragma once
+
+#include <geometry_msgs/PoseStamped.h>
+#include <ros/node_handle.h>
+#include <std_srvs/Empty.h>
+#include <std_srvs/Trigger.h>
+#include <tf2_ros/buffer.h>
+#include <tf2_ros/transform_broadcaster.h>
+#include <tf2_ros/transform_listener.h>
+#include <vacuum_gripper_sim/PressureSetpoint.h>
+
+#include "actuator.h"
+#include "diagnostics.h"
+#include "markers.h"
+#include "parameters.h"
+#include "step_schedule.h"
+#include "throttle.h"
+#include "vacuum_gripper_sim/core/simulator.h"
+#include "world.h"
+
+namespace vacuum_gripper_sim {
+
+/** Translates between ROS and the Simulator; holds no physics.
+
+ One thread steps and serves callbacks, so commands act between two steps and never during one; only
+ tf listens on a thread of its own. */
+class VacuumGripperNode {
+ public:
+  /// @throws std::invalid_argument naming the parameter that is not set, mistyped or out of range.
+  explicit VacuumGripperNode(const ros::NodeHandle& private_nh);
+
+  /// Steps at `rate` Hz of ROS time until shutdown. A step is always h = 1 / rate long: when it is
+  /// late the simulation falls behind, h does not grow.
+  void Run();
+
+ private:
+  void AdvertiseAndSubscribe();
+
+  void OnPressureSetpoint(const PressureSetpoint& message);
+  void OnPoseCommand(const geometry_msgs::PoseStamped& message);
+  bool OnOn(std_srvs::Empty::Request&, std_srvs::Empty::Response&);
+  bool OnOff(std_srvs::Empty::Request&, std_srvs::Empty::Response&);
+  bool OnReset(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response);
+
+  void SetSetpoint(double gauge_pressure);
+  void FollowMountFrame();
+  void ResetCup();
+  void Step(const ros::Time& stamp);
+  const StepResult& AdvanceSimulator(const Command& command);
+
+  void Publish(const ros::Time& stamp, const StepResult& result);
+  void PublishState(const ros::Time& stamp, const StepResult& result);  // What is latched.
+  void PublishMarkers(const std_msgs::Header& world_header, const StepResult& result);
+  std_msgs::Header MakeHeader(const ros::Time& stamp, const std::string& frame) const;
+
+  ros::NodeHandle nh_;
+  NodeParameters parameters_;
+  Simulator simulator_;
+  Actuator actuator_;
+  World world_;
+  MarkerPainter painter_;
+  StepSchedule schedule_;
+  Diagnostics diagnostics_;
+  Throttle throttle_;
+
+  double setpoint_{0.0};          // Last accepted. [Pa] gauge
+  bool mount_frame_seen_{false};  // With actuator tf.
+  bool grasping_{false};
+  bool grasping_published_{false};
+  SealStatus last_status_{SealStatus::kOpen};
+  ros::WallTime next_display_;
+
+  tf2_ros::Buffer tf_buffer_;
+  tf2_ros::TransformListener tf_listener_{tf_buffer_};
+  tf2_ros::TransformBroadcaster tf_broadcaster_;
+  ros::Subscriber setpoint_subscriber_, pose_subscriber_;
+  ros::Publisher wrench_publisher_, seal_publisher_, pressure_publisher_, points_publisher_,
+      markers_publisher_, grasping_publisher_;
+  ros::ServiceServer on_server_, off_server_, reset_server_;
+};
+
+}  // namespace vacuum_gripper_sim

@@ -1,0 +1,186 @@
+#include "vacuum_gripper_sim/config/scenario.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "config_test_tools.h"
+
+namespace vacuum_gripper_sim {
+namespace {
+
+constexpr char kMinimal[] = R"(cup: soft
+timeline:
+  - {time: 0.0, position: [0.0, 0.0, 0.03]}
+  - {time: 0.5, position: [0.0, 0.0, 0.02], pressure_setpoint: -6000.0}
+  - {time: 1.0, position: [0.0, 0.0, 0.02]}
+)";
+
+class ScenarioFile : public ::testing::Test {
+ protected:
+  ScenarioFile() {
+    WriteCup("soft", "100000.0");
+    WriteCup("hard", "900000.0");
+    mesh_ = directory_.Write("share/meshes/m.msh", "not read here");
+  }
+  void WriteCup(const std::string& name, const std::string& young_modulus) const {
+    directory_.Write("share/config/cups/" + name + ".yaml",
+                     "{name: " + name + ", mesh: ../../meshes/m.msh, young_modulus: " +
+                         young_modulus + ", poisson_ratio: 0.45, density: 1080.0}");
+  }
+  Scenario Read(const std::string& yaml, const std::vector<std::string>& overrides = {}) const {
+    return ReadScenario(directory_.Write("case.yaml", yaml), overrides, share());
+  }
+  std::string Error(const std::string& yaml, const std::vector<std::string>& overrides = {}) const {
+    return ErrorOf([&] { Read(yaml, overrides); });
+  }
+  std::string share() const { return directory_.path() + "/share"; }
+
+  TempDirectory directory_;
+  std::string mesh_;
+};
+
+TEST_F(ScenarioFile, MinimalOneHasDefaults) {
+  const Scenario scenario = Read(kMinimal);
+  EXPECT_EQ(scenario.name, "case");
+  EXPECT_EQ(scenario.cup.name, "soft");
+  EXPECT_EQ(scenario.cup.mesh_file, mesh_);
+  EXPECT_EQ(scenario.parameters.material.young_modulus, 100000.0);
+  EXPECT_EQ(scenario.duration, 1.0);
+  EXPECT_EQ(scenario.num_steps(), 100);
+  ASSERT_EQ(scenario.surfaces.size(), 1U);
+  EXPECT_TRUE(std::holds_alternative<Plane>(scenario.surfaces[0].shape));
+  ASSERT_EQ(scenario.timeline.size(), 3U);
+  EXPECT_EQ(scenario.timeline[2].pressure_setpoint, -6000.0);
+}
+
+TEST_F(ScenarioFile, ReadsSurfaces) {
+  const Scenario scenario = Read(std::string(kMinimal) + R"(
+surfaces:
+  - {name: lid, type: box, size: [0.1, 0.2, 0.3], position: [0.0, 0.0, -0.15]}
+  - {type: sphere, radius: 0.04, rotation: [0.0, 0.0, 1.0]}
+  - {type: cylinder, radius: 0.05, length: 0.06}
+  - {type: plane, rotation: [0.1, 0.0, 0.0]}
+)");
+  ASSERT_EQ(scenario.surfaces.size(), 4U);
+  EXPECT_EQ(scenario.surfaces[0].name, "lid");
+  EXPECT_EQ(std::get<Box>(scenario.surfaces[0].shape).size, Eigen::Vector3d(0.1, 0.2, 0.3));
+  EXPECT_EQ(scenario.surfaces[0].X_WS.translation(), Eigen::Vector3d(0.0, 0.0, -0.15));
+  EXPECT_EQ(std::get<Sphere>(scenario.surfaces[1].shape).radius, 0.04);
+  EXPECT_EQ(std::get<Cylinder>(scenario.surfaces[2].shape).length, 0.06);
+}
+
+TEST_F(ScenarioFile, ReadsASceneWithJoints) {
+  directory_.Write("scene.urdf",
+                   "<robot name=\"s\"><link name=\"world\"/><joint name=\"j\" type=\"fixed\">"
+                   "<parent link=\"world\"/><child link=\"plate\"/><origin xyz=\"0 0 -0.1\"/>"
+                   "</joint><link name=\"plate\"><collision><origin xyz=\"0 0 0.05\"/><geometry>"
+                   "<box size=\"1 1 0.1\"/></geometry></collision></link></robot>");
+  const Scenario scenario = Read(std::string(kMinimal) + "scene: scene.urdf\n");
+  ASSERT_EQ(scenario.surfaces.size(), 1U);
+  EXPECT_NEAR(scenario.surfaces[0].X_WS.translation().z(), -0.05, 1e-15);
+  EXPECT_TRUE(Contains(Error(std::string(kMinimal) + "scene: nothing.urdf\n"), "nothing.urdf"));
+  EXPECT_TRUE(Contains(Error(std::string(kMinimal) + "scene: scene.urdf\nsurfaces: []\n"),
+                       "scene = scene.urdf"));
+}
+
+TEST_F(ScenarioFile, OverridesChangeAnyKey) {
+  const Scenario scenario =
+      Read(kMinimal, {"time_step=0.002", "timeline.2.time=0.8", "timeline.1.position.2=0.019",
+                      "contact.solver=gauss_seidel", "timeline.1.pressure_setpoint=-1.0e+3"});
+  EXPECT_EQ(scenario.parameters.time_step, 0.002);
+  EXPECT_EQ(scenario.duration, 0.8);
+  EXPECT_EQ(scenario.num_steps(), 400);
+  EXPECT_EQ(scenario.timeline[1].p_WM.z(), 0.019);
+  EXPECT_EQ(scenario.timeline[2].pressure_setpoint, -1000.0);
+  EXPECT_EQ(scenario.parameters.contact.method, ContactSolverMethod::kGaussSeidel);
+}
+
+TEST_F(ScenarioFile, OverridesReachIntoANamedCup) {
+  EXPECT_EQ(Read(kMinimal, {"cup.young_modulus=5.0e+5"}).parameters.material.young_modulus, 5e5);
+  const Scenario scenario = Read(kMinimal, {"cup=hard", "cup.damping.stiffness=0.5"});
+  EXPECT_EQ(scenario.cup.name, "hard");
+  EXPECT_EQ(scenario.parameters.material.young_modulus, 900000.0);
+  EXPECT_EQ(scenario.parameters.damping.stiffness, 0.5);
+}
+
+TEST_F(ScenarioFile, BadOverridesAreRefused) {
+  EXPECT_TRUE(Contains(Error(kMinimal, {"time_step"}), "expected key.path=value"));
+  EXPECT_TRUE(Contains(Error(kMinimal, {"=5"}), "expected key.path=value"));
+  EXPECT_TRUE(Contains(Error(kMinimal, {"a..b=5"}), "expected key.path=value"));
+  EXPECT_TRUE(Contains(Error(kMinimal, {"timeline.3.time=5"}), "expected 0 to 2"));
+  EXPECT_TRUE(Contains(Error(kMinimal, {"timeline.last.time=5"}), "last is no index"));
+  EXPECT_TRUE(Contains(Error(kMinimal, {"timeline.0.time.x=5"}), "no key x below"));
+  EXPECT_TRUE(Contains(Error(kMinimal, {"gravity=[1, 2"}), "--set gravity"));
+  EXPECT_TRUE(Contains(Error(kMinimal, {"time_stepp=0.1"}), "time_stepp is not a known key"));
+  EXPECT_TRUE(Contains(Error(kMinimal, {"seal.clos_gap=0.1"}), "seal.clos_gap is not a known key"));
+  EXPECT_TRUE(
+      Contains(Error(kMinimal, {"cup.young_modulis=1"}), "cup.young_modulis is not a known"));
+  EXPECT_TRUE(Contains(Error(kMinimal, {"cup=none"}), "cup = none"));
+  EXPECT_TRUE(Contains(Error(kMinimal, {"time_step="}), "time_step has no value"));
+}
+
+TEST_F(ScenarioFile, RefusalsNameFileAndKey) {
+  const std::string minimal = kMinimal;
+  for (const auto& [extra, part] : std::vector<std::pair<std::string, std::string>>{
+           {"colour: red", "colour is not a known key"},
+           {"time_step: soon", "time_step = soon"},
+           {"time_step: -0.01", "time_step = -0.01"},
+           {"duration: 0.0", "duration = 0.0"},
+           {"duration: 1.0e+9", "duration = 1.0e+9"},
+           {"gravity: [0.0, 0.0]", "gravity = [0.0, 0.0]"},
+           {"seal: {close_gap: 0.1}", "seal.open_gap"},
+           {"regulator: {min_pressure: -5000.0, default_pressure: -1.0}",
+            "timeline.1.pressure_setpoint = -6000.0"},
+           {"surfaces: {}", "surfaces = {}"},
+           {"surfaces: [{name: x}]", "surfaces.0.type is not set"},
+           {"surfaces: [{type: cone}]", "surfaces.0.type = cone"},
+           {"surfaces: [{type: sphere, radius: -1.0}]", "surfaces.0.radius = -1.0"},
+           {"surfaces: [{type: box, size: [1, 1, 0]}]", "surfaces.0.size = [1, 1, 0]"},
+           {"surfaces: [{type: plane, radius: 1.0}]", "surfaces.0.radius is not a known key"},
+           {"timeline: []", "timeline is set twice"}}) {
+    const std::string error = Error(minimal + extra + "\n");
+    EXPECT_TRUE(Contains(error, part)) << extra << ": " << error;
+    EXPECT_TRUE(Contains(error, "case.yaml")) << error;
+  }
+  EXPECT_TRUE(Contains(Error(kMinimal, {"timeline.1.pressure_setpoint=5000.0"}),
+                       "timeline.1.pressure_setpoint = 5000.0"));
+  EXPECT_TRUE(Contains(Error("timeline: []"), "cup is not set"));
+  EXPECT_TRUE(Contains(Error("cup: soft"), "timeline is not set"));
+  EXPECT_TRUE(Contains(Error(""), "expected a map of keys"));
+  EXPECT_TRUE(Contains(Error("a: 1\nb: [\n"), "case.yaml:3:"));
+}
+
+TEST_F(ScenarioFile, IsFoundByNameAmongTheShipped) {
+  const std::string path = directory_.Write("share/config/experiments/pull.yaml", kMinimal);
+  EXPECT_EQ(FindScenario("pull", share()), path);
+  EXPECT_EQ(FindScenario("some/where.yaml", share()), "some/where.yaml");
+  EXPECT_TRUE(Contains(ErrorOf([&] { FindScenario("push", share()); }), "pull"));
+  EXPECT_TRUE(Contains(ErrorOf([&] { ReadScenario(share(), {}, share()); }), "not a regular file"));
+  EXPECT_TRUE(Contains(ErrorOf([&] { ReadScenario("/no/x.yaml", {}, share()); }), "no such file"));
+}
+
+TEST(ShippedScenarios, AreValid) {
+  const std::string share = VACUUM_GRIPPER_SOURCE_DIR;
+  int count = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(share + "/config/experiments")) {
+    if (entry.path().extension() != ".yaml") continue;
+    ++count;
+    EXPECT_EQ(ErrorOf([&] { ReadScenario(entry.path().string(), {}, share); }), "(no error)")
+        << entry.path();
+  }
+  EXPECT_GE(count, 5);
+}
+
+TEST(ShippedCups, AreValid) {
+  const std::string cups = std::string(VACUUM_GRIPPER_SOURCE_DIR) + "/config/cups";
+  for (const char* name : {"a20", "a20_linear", "a30", "a30_linear"}) {
+    const Cup cup = ReadCup(YAML::Node(name), cups, cups);
+    EXPECT_EQ(cup.name, name);
+    EXPECT_EQ(cup.material.young_modulus, name[1] == '2' ? 338000.0 : 593000.0);
+    EXPECT_EQ(cup.damping.stiffness, RayleighDamping{}.stiffness);
+  }
+}
+
+}  // namespace
+}  // namespace vacuum_gripper_sim

@@ -1,0 +1,118 @@
+// Different ways to the same answer: solvers, factorisations, shapes that are locally the same.
+#include <gtest/gtest.h>
+
+#include "physics/grip_cycle.h"
+
+namespace vacuum_gripper_sim {
+namespace {
+
+/// Forces after press, hold and part of a pull.
+std::vector<double> ForcesOf(const SimulatorParameters& parameters) {
+  GripCycle cycle(LoadBell("linear_700"), parameters);
+  std::vector<double> forces;
+  cycle.Drive(kCupLength - 0.001, 0.01, 0.0, 0.1);
+  forces.push_back(cycle.result().force_M.z());
+  cycle.Drive(kCupLength - 0.001, 0.01, -6000.0, 0.2);
+  forces.push_back(cycle.result().force_M.z());
+  cycle.Drive(kCupLength + 0.002, 0.01, -6000.0);
+  forces.push_back(cycle.result().force_M.z());
+  EXPECT_EQ(cycle.undone_steps, 0);
+  EXPECT_EQ(cycle.seal_flips, 1);
+  return forces;
+}
+
+void ExpectSame(const std::vector<double>& actual, const std::vector<double>& expected,
+                double relative) {
+  for (std::size_t i = 0; i < expected.size(); ++i) {
+    EXPECT_NEAR(actual[i], expected[i], relative * std::abs(expected[i])) << i;
+  }
+}
+
+TEST(SolverPaths, GaussSeidelAgreesWithTheActiveSet) {
+  SimulatorParameters parameters = A20(0.01);
+  const std::vector<double> active_set = ForcesOf(parameters);
+  parameters.contact.method = ContactSolverMethod::kGaussSeidel;
+  parameters.contact.max_iterations = 5000;
+  ExpectSame(ForcesOf(parameters), active_set, 1e-4);
+}
+
+// The paper's limit of 100 sweeps, warm: not to tolerance at every step, but near.
+TEST(SolverPaths, ThePapersGaussSeidelIsNear) {
+  SimulatorParameters parameters = A20(0.01);
+  const std::vector<double> active_set = ForcesOf(parameters);
+  parameters.contact.method = ContactSolverMethod::kGaussSeidel;
+  ExpectSame(ForcesOf(parameters), active_set, 0.01);
+}
+
+TEST(SolverPaths, ConjugateGradientsWithAnOldFactorisationAgreeWithTheDirectSolver) {
+  SimulatorParameters parameters = A20(0.01);
+  const std::vector<double> direct = ForcesOf(parameters);
+  parameters.linear_solver.method = LinearSolverMethod::kConjugateGradient;
+  parameters.linear_solver.refactor_interval = 5;
+  ExpectSame(ForcesOf(parameters), direct, 1e-4);
+}
+
+TEST(SolverPaths, ReclassifyingWithinTheStepAgrees) {
+  SimulatorParameters parameters = A20(0.01);
+  const std::vector<double> once = ForcesOf(parameters);
+  parameters.seal.max_rounds = 6;
+  ExpectSame(ForcesOf(parameters), once, 0.01);
+}
+
+/// Force of a cup pressed by 1 mm and then under -4 kPa on one surface whose top is at the origin.
+std::pair<double, double> PressAndHoldOn(const Shape& shape, const Eigen::Vector3d& center) {
+  GripCycle cycle(LoadBell("linear_700"), A20(0.01));
+  RigidSurface surface{"thing", shape};
+  surface.X_WS.translation() = center;
+  cycle.simulator().SetSurfaces({surface});
+  cycle.Drive(kCupLength - 0.001, 0.01, 0.0, 0.2);
+  const double pressed = cycle.result().force_M.z();
+  cycle.Drive(kCupLength - 0.001, 0.01, -4000.0, 0.3);
+  EXPECT_EQ(cycle.result().status, SealStatus::kSealed);
+  EXPECT_LE(cycle.max_penetration, 1e-6);
+  EXPECT_EQ(cycle.undone_steps, 0);
+  return {pressed, cycle.result().force_M.z()};
+}
+
+TEST(SolverPaths, APlaneABoxAndAHugeSphereAreTheSame) {
+  const auto plane = PressAndHoldOn(Plane{}, Eigen::Vector3d::Zero());
+  const auto box = PressAndHoldOn(Box{{0.2, 0.2, 0.02}}, {0.0, 0.0, -0.01});
+  const auto sheet = PressAndHoldOn(Box{{0.2, 0.2, 0.001}}, {0.0, 0.0, -0.0005});
+  const auto sphere = PressAndHoldOn(Sphere{100.0}, {0.0, 0.0, -100.0});
+  EXPECT_NEAR(box.first, plane.first, 1e-9);
+  EXPECT_NEAR(box.second, plane.second, 1e-9);
+  // Without its contacts the free motion carries the lip right through a thin sheet.
+  EXPECT_NEAR(sheet.first, plane.first, 1e-9);
+  EXPECT_NEAR(sheet.second, plane.second, 1e-9);
+  EXPECT_NEAR(sphere.first, plane.first, 5e-3 * std::abs(plane.first));
+  EXPECT_NEAR(sphere.second, plane.second, 5e-3 * std::abs(plane.second));
+}
+
+// A ball that fits the lip and a lying cylinder of 0.5 m: curved contact without penetration.
+TEST(SolverPaths, CurvedSurfacesSealWithoutPenetration) {
+  PressAndHoldOn(Sphere{0.15}, {0.0, 0.0, -0.15});
+  GripCycle cycle(LoadBell("linear_700"), A20(0.01));
+  RigidSurface cylinder{"pipe", Cylinder{0.5, 1.0}};
+  cylinder.X_WS.linear() = Eigen::AngleAxisd(M_PI / 2.0, Eigen::Vector3d::UnitX()).matrix();
+  cylinder.X_WS.translation().z() = -0.5;
+  cycle.simulator().SetSurfaces({cylinder});
+  cycle.Drive(kCupLength - 0.002, 0.01, 0.0, 0.2);
+  EXPECT_GT(cycle.result().num_contacts, 0U);
+  EXPECT_LE(cycle.max_penetration, 1e-6);
+  EXPECT_EQ(cycle.undone_steps, 0);
+}
+
+// Over the edge of a box half of the lip hangs in the air: no seal, and suction does nothing.
+TEST(SolverPaths, OverAnEdgeItDoesNotSeal) {
+  GripCycle cycle(LoadBell("linear_700"), A20(0.01));
+  RigidSurface box{"box", Box{{0.2, 0.2, 0.02}}};
+  box.X_WS.translation() = Eigen::Vector3d(0.1, 0.0, -0.01);
+  cycle.simulator().SetSurfaces({box});
+  cycle.Drive(kCupLength - 0.001, 0.01, -6000.0, 0.2);
+  EXPECT_EQ(cycle.result().status, SealStatus::kOpen);
+  EXPECT_EQ(cycle.result().gauge_pressure, 0.0);
+  EXPECT_GT(cycle.result().bottleneck_gap, 1e-3);
+}
+
+}  // namespace
+}  // namespace vacuum_gripper_sim

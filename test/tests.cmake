@@ -1,0 +1,26 @@
+# Unit, physics and ROS tests; included by the package's CMakeLists.txt.
+find_package(roslaunch REQUIRED)
+find_package(rostest REQUIRED)
+
+# A GoogleTest binary of all the files test/<folder>/*_test.cpp.
+function(add_test_folder folder)
+  file(GLOB sources CONFIGURE_DEPENDS test/${folder}/*_test.cpp)
+  catkin_add_gtest(${folder}_test ${sources} TIMEOUT 1200)
+  target_include_directories(${folder}_test PRIVATE test src/${folder})
+  target_link_libraries(${folder}_test ${PROJECT_NAME}_config gtest_main)
+  target_compile_definitions(${folder}_test PRIVATE
+    VACUUM_GRIPPER_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
+    VACUUM_GRIPPER_EXPERIMENT="$<TARGET_FILE:vacuum_gripper_experiment>")
+  target_compile_options(${folder}_test PRIVATE ${strict_warnings})
+  add_dependencies(${folder}_test vacuum_gripper_experiment)
+endfunction()
+
+add_test_folder(core)
+add_test_folder(config)
+add_test_folder(physics)
+
+file(GLOB rostests CONFIGURE_DEPENDS test/ros/*.test)
+foreach(rostest ${rostests})
+  add_rostest(${rostest} DEPENDENCIES vacuum_gripper_node)
+endforeach()
+roslaunch_add_file_check(launch)
