@@ -5,7 +5,7 @@ find_package(rostest REQUIRED)
 # A GoogleTest binary of all the files test/<folder>/*_test.cpp.
 function(add_test_folder folder)
   file(GLOB sources CONFIGURE_DEPENDS test/${folder}/*_test.cpp)
-  catkin_add_gtest(${folder}_test ${sources} TIMEOUT 1200)
+  catkin_add_gtest(${folder}_test ${sources})
   target_include_directories(${folder}_test PRIVATE test src/${folder})
   target_link_libraries(${folder}_test ${PROJECT_NAME}_config gtest_main)
   target_compile_definitions(${folder}_test PRIVATE
@@ -18,6 +18,15 @@ endfunction()
 add_test_folder(core)
 add_test_folder(config)
 add_test_folder(physics)
+add_test_folder(validation)
+
+# The parts of the node that need no graph.
+catkin_add_gtest(node_parts_test test/ros/actuator_test.cpp test/ros/step_schedule_test.cpp
+  src/ros/actuator.cpp src/ros/step_schedule.cpp)
+target_include_directories(node_parts_test PRIVATE src/ros)
+target_include_directories(node_parts_test SYSTEM PRIVATE ${catkin_INCLUDE_DIRS})
+target_link_libraries(node_parts_test Eigen3::Eigen ${catkin_LIBRARIES} gtest_main)
+target_compile_options(node_parts_test PRIVATE ${strict_warnings})
 
 file(GLOB rostests CONFIGURE_DEPENDS test/ros/*.test)
 foreach(rostest ${rostests})

@@ -138,8 +138,7 @@ void Simulator::Implementation::Reset(const Eigen::Isometry3d& X_WM) {
   result_.time = time;
   result_.X_WM = X_WM;
   result_.x_W = state_.x_W;
-  const std::vector<double> distance =
-      DetectProximity(surfaces_, cavity_.nodes, state_.x_W, 0.0).distance;
+  const std::vector<double> distance = NearestDistances(surfaces_, cavity_.nodes, state_.x_W);
   result_.gap = distance;
   result_.classification = Classify(cavity_, distance, parameters_.seal.open_gap);
   result_.bottleneck_gap = result_.classification.bottleneck_gap;

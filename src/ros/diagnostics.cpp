@@ -13,8 +13,9 @@ constexpr double kStartUp = 1.0;  // [s] of simulated time
 
 }  // namespace
 
-Diagnostics::Diagnostics(const std::string& hardware_id, double time_step, double solver_tolerance)
-    : time_step_(time_step), solver_tolerance_(solver_tolerance) {
+Diagnostics::Diagnostics(const std::string& hardware_id, double period, double time_step,
+                         double solver_tolerance)
+    : period_(period), time_step_(time_step), solver_tolerance_(solver_tolerance) {
   updater_.setHardwareID(hardware_id);
   updater_.add("simulation", this, &Diagnostics::Report);
 }
@@ -50,7 +51,7 @@ void Diagnostics::OnFailure(const std::string& message) {
 void Diagnostics::Update() {
   const ros::WallTime now = ros::WallTime::now();
   if (now < next_report_) return;
-  next_report_ = now + ros::WallDuration(updater_.getPeriod());
+  next_report_ = now + period_;
   updater_.force_update();
 }
 

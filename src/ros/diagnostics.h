@@ -15,9 +15,11 @@ namespace vacuum_gripper_sim {
  time, so a paused /clock still shows a living node. */
 class Diagnostics {
  public:
-  /** @param time_step        h [s], also the budget of a step.
+  /** @param period           Of the reports. [wall s]
+      @param time_step        h [s], also the budget of a step.
       @param solver_tolerance Residual above which a step counts as not converged. [m] */
-  Diagnostics(const std::string& hardware_id, double time_step, double solver_tolerance);
+  Diagnostics(const std::string& hardware_id, double period, double time_step,
+              double solver_tolerance);
 
   /** @param wall_time   What the step took, publishing included. [s]
       @param met_deadline False if it ended after its period. */
@@ -50,6 +52,7 @@ class Diagnostics {
   void Report(diagnostic_updater::DiagnosticStatusWrapper& status);
   void Summarize(diagnostic_updater::DiagnosticStatusWrapper* status) const;
 
+  ros::WallDuration period_;
   double time_step_;         // [s]
   double solver_tolerance_;  // [m]
   long total_steps_{0};

@@ -29,6 +29,7 @@ constexpr Required kRequired[] = {
     {"", "actuator"},
     {"", "cup"},
     {"", "display_rate"},
+    {"", "diagnostic_period"},
     {"", "ambient_pressure"},
     {"", "initial_position"},
     {"", "initial_rotation"},
@@ -195,7 +196,7 @@ NodeParameters ReadNodeParameters(const YAML::Node& node, const std::string& cup
   if (reader.Has("scene_description")) {
     parameters.scene_description = GetText(&reader, "scene_description");
   }
-  reader.GetDouble("diagnostic_period", 1.0);  // Read by diagnostic_updater itself.
+  parameters.diagnostic_period = GetPositive(&reader, "diagnostic_period", 1.0e+3);
   reader.CheckNoUnknownKeys();
   Validate(parameters.simulator);
   CheckConsistency(parameters);

@@ -43,8 +43,8 @@ VacuumGripperNode::VacuumGripperNode(const ros::NodeHandle& private_nh)
       world_(parameters_.scene_description, parameters_.world_frame),
       painter_(simulator_.mesh(), simulator_.cavity()),
       schedule_(parameters_.simulator.time_step, ros::Time::isSimTime()),
-      diagnostics_(parameters_.cup.name, parameters_.simulator.time_step,
-                   parameters_.simulator.contact.tolerance) {
+      diagnostics_(parameters_.cup.name, parameters_.diagnostic_period,
+                   parameters_.simulator.time_step, parameters_.simulator.contact.tolerance) {
   AdvertiseAndSubscribe();
   PublishState(ros::Time::now(), simulator_.result());
   ROS_INFO("cup %s: %d nodes, %d %s elements, %g Hz", parameters_.cup.name.c_str(),

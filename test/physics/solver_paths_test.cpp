@@ -88,9 +88,11 @@ TEST(SolverPaths, APlaneABoxAndAHugeSphereAreTheSame) {
   EXPECT_NEAR(sphere.second, plane.second, 5e-3 * std::abs(plane.second));
 }
 
-// A ball that fits the lip and a lying cylinder of 0.5 m: curved contact without penetration.
-TEST(SolverPaths, CurvedSurfacesSealWithoutPenetration) {
-  PressAndHoldOn(Sphere{0.15}, {0.0, 0.0, -0.15});
+// A ball whose lip circle (radius 18.75 mm) lies in the plane z = 0 is sealed as a plane is; a lying
+// pipe of 0.5 m radius is touched on two sides. Curved contact, no penetration.
+TEST(SolverPaths, CurvedSurfacesAreNotPenetrated) {
+  const double radius = 0.15;
+  PressAndHoldOn(Sphere{radius}, {0.0, 0.0, -std::sqrt(radius * radius - 0.01875 * 0.01875)});
   GripCycle cycle(LoadBell("linear_700"), A20(0.01));
   RigidSurface cylinder{"pipe", Cylinder{0.5, 1.0}};
   cylinder.X_WS.linear() = Eigen::AngleAxisd(M_PI / 2.0, Eigen::Vector3d::UnitX()).matrix();

@@ -26,6 +26,7 @@ WRONG = {
     'actuator': ['robot', 3],
     'cup': ['no_such_cup', 5, {'name': 'x'}],
     'display_rate': [0.0, -1.0],
+    'diagnostic_period': [0.0],
     'ambient_pressure': [0.0, -1.0, 50000.0],
     'initial_position': [[0.0, 0.0], [0.0, 0.0, 'up'], 0.05, [0.0, 0.0, float('inf')]],
     'initial_rotation': [[0.0, 0.0, 0.0, 0.0], [1.0, 0.0, 0.0, 0.1, 0.0]],
@@ -158,6 +159,12 @@ class BadParametersTest(unittest.TestCase):
 
     def test_tf_without_a_mount_frame(self):
         self.assert_refused(dict(self.good, actuator='tf'), 'mount_frame')
+
+    def test_bad_mount_frame(self):
+        for value in (5, '/tool'):
+            with self.subTest(value=value):
+                self.assert_refused(dict(self.good, actuator='tf', mount_frame=value),
+                                    'mount_frame')
 
     def test_cup_as_a_map(self):
         cup = {'name': 'mine', 'mesh': os.path.join(PACKAGE, 'meshes', 'bell_linear_700.msh'),

@@ -15,24 +15,44 @@ struct Contact {
   Eigen::Vector3d normal;  ///< Out of the surface, world axes: d(gap)/dx.
 };
 
-/// The narrow phase: signed distances of nodes to all surfaces.
-struct Proximity {
-  std::vector<Contact> contacts;  ///< Pairs nearer than the alarm distance, nodes ascending.
-  std::vector<double> distance;   ///< Of each asked node to its nearest surface; +inf: none. [m]
+/// Distances of `nodes` to the surface nearest to each; +inf without surfaces. [m]
+/// @param x_W Positions of all mesh nodes, 3 by #nodes. [m]
+std::vector<double> NearestDistances(const std::vector<RigidSurface>& surfaces,
+                                     const std::vector<int>& nodes, const Eigen::Matrix3Xd& x_W);
+
+/** The narrow phase of a step: what its nodes saw of the surfaces when it began.
+
+ A motion may end far inside a solid, or behind a thin one: without its contacts, the free motion
+ often does. Its gap is therefore measured along the side of the solid on which the node started,
+
+     gap(x1) = d(x0) + n(x0) . (x1 - x0),
+
+ which is exact for planes and faces; curved surfaces are measured anew near their contact. */
+class NarrowPhase {
+ public:
+  /// @param surfaces Must outlive this. @param nodes Mesh nodes to watch, ascending.
+  /// @param x0_W Positions at the step's start, 3 by #nodes. [m]
+  void Begin(const std::vector<RigidSurface>& surfaces, const std::vector<int>& nodes,
+             const Eigen::Matrix3Xd& x0_W);
+
+  /// Pairs that started nearer than `alarm_distance`, with their gap at x1. Nodes ascending.
+  std::vector<Contact> Near(const Eigen::Matrix3Xd& x1_W, double alarm_distance) const;
+  /// Pairs whose gap at x1 is below `gap`. Nodes ascending.
+  std::vector<Contact> Reaching(const Eigen::Matrix3Xd& x1_W, double gap) const;
+
+  /// Gap of a pair at x1, seen from its start.
+  Contact Ahead(int node, int surface, const Eigen::Matrix3Xd& x1_W) const;
+  /// The pair measured where it is.
+  Contact At(int node, int surface, const Eigen::Matrix3Xd& x_W) const;
+
+ private:
+  template <typename Predicate>
+  std::vector<Contact> Select(const Eigen::Matrix3Xd& x1_W, const Predicate& wanted) const;
+
+  const std::vector<RigidSurface>* surfaces_{nullptr};
+  std::vector<int> nodes_;
+  Eigen::Matrix3Xd x0_W_;
+  std::vector<SurfaceDistance> seen_;  // by watched node and surface, node-major
 };
-
-/** Measures where the nodes are.
- @param nodes The mesh nodes to ask for. @param x_W Positions of all mesh nodes, 3 by #nodes. [m]
- @param alarm_distance Pairs with a smaller signed distance become contacts. [m] */
-Proximity DetectProximity(const std::vector<RigidSurface>& surfaces, const std::vector<int>& nodes,
-                          const Eigen::Matrix3Xd& x_W, double alarm_distance);
-
-/** Contacts of a motion that may end far inside a solid: gap(x0) + normal(x0) . (x1 - x0), with the
- side of the solid that the motion started from. Measured at its end, a thin plate would push a node
- that a free motion carried through its middle out on the wrong side.
- @param x0_W,x1_W Start and end of the motion, 3 by #nodes. [m] */
-std::vector<Contact> DetectAhead(const std::vector<RigidSurface>& surfaces,
-                                 const std::vector<int>& nodes, const Eigen::Matrix3Xd& x0_W,
-                                 const Eigen::Matrix3Xd& x1_W, double alarm_distance);
 
 }  // namespace vacuum_gripper_sim

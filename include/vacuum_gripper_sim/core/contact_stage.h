@@ -30,10 +30,9 @@ struct ContactSolution {
 /** Items 3 to 5 of [Bernardin, Sec. III-A] for contacts alone: given the free motion and the load
  of the cavity's pressure, finds the contact forces and the corrected motion.
 
- Candidates are the nodes that the loaded free motion brings nearer to a surface than the alarm
- distance, seen from the side of the surface where they started the step. Every surface node is
- checked after the solve; those that penetrate join the candidates, and gaps are measured anew at
- the end of the motion:
+ Candidates are the pairs of node and surface that start the step nearer than the alarm distance.
+ Every surface node is checked after the solve; those that passed a surface join the candidates, and
+ gaps are measured anew at the end of the motion:
 
      delta = gap(x_end) - W lambda,      0 <= delta + W lambda'  perp  lambda' >= 0.
 
@@ -67,12 +66,24 @@ class ContactStage {
   void ForgetForces();
 
  private:
+  /// A row of H_c with its unknown.
+  struct Candidate {
+    Contact contact;
+    double force{0.0};    ///< lambda; before a solve its warm start. [N]
+    double applied{0.0};  ///< The force that led to where the gap was measured. [N]
+  };
+
   Eigen::Matrix3Xd EndPositions(const Eigen::VectorXd& dv_f) const;
-  void UpdateCandidates(const Eigen::Matrix3Xd& measured_at, const Eigen::Matrix3Xd& x,
-                        StepTimings* timings);
-  void RebuildDelassus(StepTimings* timings);
-  double& ForceOf(const Contact& contact);
+  void AddCandidates(const std::vector<Contact>& contacts);
+  bool IsCandidate(const Contact& contact) const;
+  template <typename Measure>
+  void MeasureCandidates(const Measure& measure);
+  void UpdateDelassus(StepTimings* timings);
+  void SolveCandidates(ContactSolution* solution, StepTimings* timings);
+  bool Correct(const Eigen::VectorXd& dv_loaded, ContactSolution* solution, StepTimings* timings);
   void MeasureEnd(ContactSolution* solution) const;
+  void Report(ContactSolution* solution) const;
+  double& WarmStart(const Contact& contact);
 
   const ImplicitEuler* system_;
   LinearSolver* solver_;
@@ -84,11 +95,13 @@ class ContactStage {
   Eigen::Matrix3Xd x0_, v0_, dv_c_;
   Eigen::VectorXd dv_free_;
   double h_{0.0};
-  std::vector<Contact> candidates_;
+  NarrowPhase narrow_phase_;
+  std::vector<Candidate> candidates_;  // nodes ascending
+  bool delassus_outdated_{true};
   Eigen::SparseMatrix<double> H_transposed_;  // 3 #free by #candidates
   Eigen::MatrixXd W_;                         // [m/N]
 
-  std::vector<double> forces_;  // warm start: of (node, surface), node-major [N]
+  std::vector<double> warm_starts_;  // of (node, surface), node-major [N]
 };
 
 }  // namespace vacuum_gripper_sim

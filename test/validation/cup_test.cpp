@@ -1,0 +1,174 @@
+// The bell on a frictionless plane: pressed, held under suction, pulled until it lets go.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "physics/grip_cycle.h"
+#include "validation/meridian.h"
+#include "validation/reference_case.h"
+
+namespace vacuum_gripper_sim {
+namespace {
+
+constexpr double kTimeStep = 0.01;     // [s]
+constexpr double kPressSpeed = 0.01;   // [m/s]
+constexpr double kPullSpeed = 0.005;   // [m/s]
+constexpr double kSettlingTime = 0.4;  // the damped cup is then at rest to 1e-4 of the force [s]
+
+GripCycle MakeCycle(TetMesh mesh, const Material& material) {
+  SimulatorParameters parameters = A20(kTimeStep);
+  parameters.material = material;
+  return GripCycle(std::move(mesh), parameters);
+}
+
+/// A cup with its references: presses, then draws it on and compares force and shape.
+struct HoldCase {
+  const char* cup;
+  Material material;
+  double press;           // [m]
+  double pressure;        // gauge [Pa]
+  Reference press_force;  // on the mount [N]
+  Tolerance press_tolerance;
+  Reference hold_force;  // on the mount [N]
+  Tolerance hold_tolerance;
+  const char* profile;  // file
+};
+
+MeridianPoints ReadProfile(const char* file) {
+  MeridianPoints profile;
+  const ReferenceTable table(file);
+  for (const ReferenceTable::Row& row : table.rows()) {
+    profile.emplace_back(row.at("r"), row.at("z"));
+  }
+  return profile;
+}
+
+void PressAndHold(const HoldCase& test) {
+  GripCycle cycle = MakeCycle(LoadBell("quadratic_700"), test.material);
+  char name[64];
+  std::snprintf(name, sizeof(name), "%s, %g mm", test.cup, -1e3 * test.press);
+
+  cycle.Drive(kCupLength - test.press, kPressSpeed, 0.0, kSettlingTime);
+  Compare(std::string(name) + ": press force [N]", cycle.result().force_M.z(), test.press_force,
+          test.press_tolerance);
+
+  cycle.Drive(kCupLength - test.press, kPressSpeed, test.pressure, kSettlingTime);
+  ASSERT_EQ(cycle.result().status, SealStatus::kSealed);
+  const StepResult& held = cycle.result();
+  Compare(std::string(name) + ": suction force [N]", held.force_M.z(), test.hold_force,
+          test.hold_tolerance);
+  Compare(std::string(name) + ": support balance [N]", held.force_M.z() + held.contact_force,
+          -test.pressure * held.cavity_area, 1e-5);
+
+  const MeridianPoints profile = ReadProfile(test.profile);
+  const MeridianPoints shape = MeridianOf(cycle.simulator().mesh(), held.x_W);
+  const double to_shape = FarthestFromPoints(profile, shape);
+  const double to_profile = FarthestFromLine(shape, profile);
+  CompareAbsolute(std::string(name) + ": profile, farthest [mm]", 1e3 * to_shape, 0.0, 0.3, 0.3);
+  CompareAbsolute(std::string(name) + ": Hausdorff distance [mm]",
+                  1e3 * std::max(to_shape, to_profile), 0.0, 0.3, 0.3);
+}
+
+TEST(CupHold, A20) {
+  const ReferenceTable svk("a20_hold_svk.csv");
+  const ReferenceTable nh("a20_hold_neohooke.csv");
+  PressAndHold({"A20",
+                ReferenceA20(),
+                0.001,
+                -6000.0,
+                -0.280,
+                0.05,
+                {svk.Force(-0.001, -6000.0), nh.Force(-0.001, -6000.0)},
+                0.03,
+                "a20_profile_press1mm_6kPa.csv"});
+  PressAndHold({"A20",
+                ReferenceA20(),
+                0.002,
+                -6000.0,
+                -0.471,
+                0.05,
+                {svk.Force(-0.002, -6000.0), nh.Force(-0.002, -6000.0)},
+                0.03,
+                "a20_profile_press2mm_6kPa.csv"});
+}
+
+// A30 has no neo-Hookean run: the spread is that of A20 at nearly the same |p| / E.
+TEST(CupHold, A30) {
+  const ReferenceTable svk("a30_hold_svk.csv");
+  const ReferenceTable a20_svk("a20_hold_svk.csv");
+  const ReferenceTable a20_nh("a20_hold_neohooke.csv");
+  const auto spread = [&](double clamp_uz) {
+    const double force = svk.Force(clamp_uz, -11000.0);
+    return Reference(force,
+                     force * a20_nh.Force(clamp_uz, -6000.0) / a20_svk.Force(clamp_uz, -6000.0));
+  };
+  PressAndHold({"A30", ReferenceA30(), 0.001, -11000.0, svk.Force(-0.001, 0.0), 0.05,
+                spread(-0.001), 0.03, "a30_profile_press1mm_11kPa.csv"});
+  PressAndHold({"A30", ReferenceA30(), 0.002, -11000.0, svk.Force(-0.002, 0.0), 0.05,
+                spread(-0.002), 0.03, "a30_profile_press2mm_11kPa.csv"});
+}
+
+TEST(CupPress, LinearElementsAgainstTheSameMesh) {
+  GripCycle cycle = MakeCycle(LoadReferenceMesh("cup_linear"), ReferenceA20());
+  cycle.Drive(kCupLength - 0.001, kPressSpeed, 0.0, kSettlingTime);
+  Compare("A20 linear, -1 mm: press force [N]", cycle.result().force_M.z(), -0.423, 0.05);
+}
+
+/// Force on the mount at a lift [m].
+struct LiftPoint {
+  double lift;
+  Reference force;
+};
+
+/// Presses by 1 mm, draws the cup on and lifts it, resting at each point, until it lets go.
+void Uplift(double pressure, const std::vector<LiftPoint>& points, const Reference& loss_force,
+            const Reference& loss_lift_mm) {
+  GripCycle cycle = MakeCycle(LoadBell("quadratic_700"), ReferenceA20());
+  cycle.Drive(kCupLength - 0.001, kPressSpeed, 0.0, 0.1);
+  cycle.Drive(kCupLength - 0.001, kPressSpeed, pressure, 0.2);
+  ASSERT_EQ(cycle.result().status, SealStatus::kSealed);
+  char name[64];
+  for (const LiftPoint& point : points) {
+    cycle.Drive(kCupLength + point.lift, kPullSpeed, pressure, 0.2);
+    std::snprintf(name, sizeof(name), "A20, %g kPa, lift %g mm: force [N]", 1e-3 * pressure,
+                  1e3 * point.lift);
+    EXPECT_EQ(cycle.result().status, SealStatus::kSealed) << name;
+    Compare(name, cycle.result().force_M.z(), point.force, 0.05);
+  }
+  cycle.PullUntilLost(kCupLength + 0.014, kPullSpeed, pressure, 0.0);
+  EXPECT_EQ(cycle.result().status, SealStatus::kLost);
+  EXPECT_EQ(cycle.seal_flips, 2);
+  std::snprintf(name, sizeof(name), "A20, %g kPa, lost: force [N]", 1e-3 * pressure);
+  Compare(name, cycle.peak_force, loss_force, 0.05);
+  std::snprintf(name, sizeof(name), "A20, %g kPa, lost: lift [mm]", 1e-3 * pressure);
+  CompareAbsolute(name, 1e3 * cycle.lift_at_loss, loss_lift_mm, 0.7, 0.7);
+}
+
+TEST(CupUplift, A20AtMinus2kPa) {
+  const ReferenceTable svk("a20_uplift_2kPa_svk.csv");
+  const ReferenceTable nh("a20_uplift_6kPa_neohooke.csv");
+  Uplift(-2000.0,
+         {{0.0, {svk.Force(0.0, -2000.0), nh.Force(0.0, -2000.0)}},
+          {0.001, svk.Force(0.001, -2000.0)},
+          {0.002, svk.Force(0.002, -2000.0)},
+          {0.0025, svk.Force(0.0025, -2000.0)}},
+         1.93, 3.2);
+}
+
+// The neo-Hookean run reaches -6 kPa at a lift of 3 mm; before there is one material only.
+TEST(CupUplift, A20AtMinus6kPa) {
+  const ReferenceTable svk("a20_uplift_6kPa_svk.csv");
+  const ReferenceTable nh("a20_uplift_6kPa_neohooke.csv");
+  std::vector<LiftPoint> points;
+  for (const double lift : {0.0, 0.001, 0.002}) points.push_back({lift, svk.Force(lift, -6000.0)});
+  for (const double lift : {0.003, 0.0045, 0.0055, 0.006}) {
+    points.push_back({lift, {svk.Force(lift, -6000.0), nh.Force(lift, -6000.0)}});
+  }
+  Uplift(-6000.0, points, {4.4, 5.0}, {6.5, 7.4});
+}
+
+}  // namespace
+}  // namespace vacuum_gripper_sim
