@@ -10,58 +10,57 @@
 
 namespace vacuum_gripper_sim {
 
-/// Points of a meridian half plane: distance from the cup's axis and height. [m]
-using MeridianPoints = std::vector<Eigen::Vector2d>;
+/// A piece of a meridian section: two points (distance from the cup's axis, height). [m]
+struct MeridianSegment {
+  Eigen::Vector2d begin;
+  Eigen::Vector2d end;
+};
+using Meridian = std::vector<MeridianSegment>;
 
-/// Points spread over the whole deformed boundary, turned about the axis x = y = 0 into one half
+/// The whole deformed boundary as a grid of lines, turned about the axis x = y = 0 into one half
 /// plane. @param x Positions of all nodes, 3 by #nodes. [m]
-inline MeridianPoints MeridianOf(const TetMesh& mesh, const Eigen::Matrix3Xd& x) {
-  constexpr int kDivisions = 8;  // of a face's edge
-  MeridianPoints points;
+inline Meridian MeridianOf(const TetMesh& mesh, const Eigen::Matrix3Xd& x) {
+  constexpr int kDivisions = 4;  // of a face's edge
+  Meridian meridian;
   for (int f = 0; f < mesh.boundary_faces.cols(); ++f) {
-    for (int i = 0; i <= kDivisions; ++i) {
-      for (int j = 0; j <= kDivisions - i; ++j) {
-        const double a = static_cast<double>(i) / kDivisions;
-        const double b = static_cast<double>(j) / kDivisions;
-        const double c = 1.0 - a - b;
-        const auto node = [&](int k) { return x.col(mesh.boundary_faces(k, f)); };
-        Eigen::Vector3d p;
-        if (mesh.quadratic()) {
-          p = a * (2.0 * a - 1.0) * node(0) + b * (2.0 * b - 1.0) * node(1) +
-              c * (2.0 * c - 1.0) * node(2) +
-              4.0 * (a * b * node(3) + b * c * node(4) + c * a * node(5));
-        } else {
-          p = a * node(0) + b * node(1) + c * node(2);
-        }
-        points.emplace_back(p.head<2>().norm(), p.z());
+    const auto at = [&](int i, int j) {
+      const double a = static_cast<double>(i) / kDivisions;
+      const double b = static_cast<double>(j) / kDivisions;
+      const double c = 1.0 - a - b;
+      const auto node = [&](int k) { return x.col(mesh.boundary_faces(k, f)); };
+      Eigen::Vector3d p;
+      if (mesh.quadratic()) {
+        p = a * (2.0 * a - 1.0) * node(0) + b * (2.0 * b - 1.0) * node(1) +
+            c * (2.0 * c - 1.0) * node(2) +
+            4.0 * (a * b * node(3) + b * c * node(4) + c * a * node(5));
+      } else {
+        p = a * node(0) + b * node(1) + c * node(2);
+      }
+      return Eigen::Vector2d(p.head<2>().norm(), p.z());
+    };
+    for (int i = 0; i < kDivisions; ++i) {
+      for (int j = 0; j < kDivisions - i; ++j) {
+        meridian.push_back({at(i, j), at(i + 1, j)});
+        meridian.push_back({at(i, j), at(i, j + 1)});
+        meridian.push_back({at(i + 1, j), at(i, j + 1)});
       }
     }
   }
-  return points;
+  return meridian;
 }
 
-/// Largest distance from a point of `points` to the polygon line through `line`. [m]
-inline double FarthestFromLine(const MeridianPoints& points, const MeridianPoints& line) {
+/// Largest distance from the begin of a segment of `from` to the nearest segment of `to`. [m]
+inline double Farthest(const Meridian& from, const Meridian& to) {
   double farthest = 0.0;
-  for (const Eigen::Vector2d& p : points) {
+  for (const MeridianSegment& origin : from) {
     double nearest = std::numeric_limits<double>::infinity();
-    for (std::size_t k = 0; k + 1 < line.size(); ++k) {
-      const Eigen::Vector2d edge = line[k + 1] - line[k];
-      const double t =
-          std::clamp((p - line[k]).dot(edge) / std::max(edge.squaredNorm(), 1e-30), 0.0, 1.0);
-      nearest = std::min(nearest, (p - line[k] - t * edge).norm());
+    for (const MeridianSegment& segment : to) {
+      const Eigen::Vector2d edge = segment.end - segment.begin;
+      const Eigen::Vector2d offset = origin.begin - segment.begin;
+      const double length_squared = std::max(edge.squaredNorm(), 1e-30);
+      const double t = std::clamp(offset.dot(edge) / length_squared, 0.0, 1.0);
+      nearest = std::min(nearest, (offset - t * edge).squaredNorm());
     }
-    farthest = std::max(farthest, nearest);
-  }
-  return farthest;
-}
-
-/// Largest distance from a point of `points` to the nearest of `others`. [m]
-inline double FarthestFromPoints(const MeridianPoints& points, const MeridianPoints& others) {
-  double farthest = 0.0;
-  for (const Eigen::Vector2d& p : points) {
-    double nearest = std::numeric_limits<double>::infinity();
-    for (const Eigen::Vector2d& q : others) nearest = std::min(nearest, (p - q).squaredNorm());
     farthest = std::max(farthest, std::sqrt(nearest));
   }
   return farthest;

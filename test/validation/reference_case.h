@@ -38,13 +38,13 @@ struct Reference {
   Reference(double value) : a(value), b(value) {}  // NOLINT: a value is a spread of none
   Reference(double first, double second) : a(first), b(second) {}
 
-  /// Signed distance from the spread, relative to its nearer end; 0 within it.
-  double Error(double value) const {
-    const double low = std::min(a, b);
-    const double high = std::max(a, b);
-    if (value < low) return (value - low) / std::abs(low);
-    if (value > high) return (value - high) / std::abs(high);
-    return 0.0;
+  /// Signed distance from the spread; 0 within it.
+  double Distance(double value) const {
+    return value - std::clamp(value, std::min(a, b), std::max(a, b));
+  }
+  /// Of the end of the spread that is nearest to the value.
+  double Magnitude(double value) const {
+    return std::abs(std::clamp(value, std::min(a, b), std::max(a, b)));
   }
   std::string Text() const {
     char text[64];
@@ -53,7 +53,7 @@ struct Reference {
   }
 };
 
-/// Bounds of a case, relative: what we hold ourselves to, and, where that is not reached, the error
+/// Bounds of a case's error: what we hold ourselves to, and, where that is not reached, the error
 /// found, which must not grow.
 struct Tolerance {
   double target;
@@ -62,33 +62,29 @@ struct Tolerance {
   Tolerance(double target_, double reached_) : target(target_), reached(reached_) {}
 };
 
-inline void PrintVerdict(const std::string& name, double value, const std::string& reference,
-                         double error_percent, double tolerance_percent) {
-  std::printf("%-44s %12.6g %24s %+9.4f %% %8.3g %%  %s\n", name.c_str(), value, reference.c_str(),
-              error_percent, tolerance_percent,
-              std::abs(error_percent) <= tolerance_percent ? "PASS" : "FAIL");
+/// Prints case, value, reference, error, tolerance and verdict; expects |error| <= reached.
+/// @param error,tolerance In `unit`s times `scale`.
+inline void Judge(const std::string& name, double value, const Reference& reference, double error,
+                  const Tolerance& tolerance, double scale, const char* unit) {
+  const char* verdict = std::abs(error) <= tolerance.target ? "PASS" : "FAIL";
+  std::printf("%-46s %12.6g, reference %22s, error %+9.4f%s, tolerance %g%s, %s\n", name.c_str(),
+              value, reference.Text().c_str(), scale * error, unit, scale * tolerance.target, unit,
+              verdict);
   std::fflush(stdout);
+  EXPECT_LE(std::abs(error), tolerance.reached) << name;
 }
 
-/// Prints value, reference, error and tolerance, and expects the error below tolerance.reached.
+/// Judges the relative error.
 inline void Compare(const std::string& name, double value, const Reference& reference,
                     const Tolerance& tolerance) {
-  const double error = reference.Error(value);
-  PrintVerdict(name, value, reference.Text(), 100.0 * error, 100.0 * tolerance.target);
-  EXPECT_LE(std::abs(error), tolerance.reached)
-      << name << ": " << value << ", reference " << reference.Text();
+  Judge(name, value, reference, reference.Distance(value) / reference.Magnitude(value), tolerance,
+        100.0, " %");
 }
 
-/// The same for a quantity with an absolute tolerance, printed as percent of that tolerance's unit.
+/// Judges the error in the value's own unit.
 inline void CompareAbsolute(const std::string& name, double value, const Reference& reference,
-                            double target, double reached) {
-  const double low = std::min(reference.a, reference.b);
-  const double high = std::max(reference.a, reference.b);
-  const double error = value < low ? value - low : value > high ? value - high : 0.0;
-  std::printf("%-44s %12.6g %24s %+11.5f %10.3g  %s\n", name.c_str(), value,
-              reference.Text().c_str(), error, target, std::abs(error) <= target ? "PASS" : "FAIL");
-  std::fflush(stdout);
-  EXPECT_LE(std::abs(error), reached) << name;
+                            const Tolerance& tolerance) {
+  Judge(name, value, reference, reference.Distance(value), tolerance, 1.0, "");
 }
 
 /// A CSV file with one line of column names; an empty field is NaN.

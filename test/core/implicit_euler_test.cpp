@@ -1,0 +1,146 @@
+#include "vacuum_gripper_sim/core/implicit_euler.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+
+#include "support/block_mesh.h"
+#include "vacuum_gripper_sim/core/linear_solver.h"
+
+namespace vacuum_gripper_sim {
+namespace {
+
+const Eigen::Vector3d kGravity(0.0, 0.0, -9.81);
+
+/// A block of 2 x 1 x 1 cm, clamped at x = 0, with what a step of it needs.
+class ImplicitEulerTest : public testing::TestWithParam<bool> {
+ protected:
+  const TetMesh mesh_ = MakeBlock(3, 2, 2, {0.02, 0.01, 0.01}, GetParam());
+  const ElasticBody body_{mesh_, {338000.0, 0.45, 1080.0}};
+  const double mass_ = 1080.0 * 0.02 * 0.01 * 0.01;
+
+  Eigen::MatrixXd DenseA(const ImplicitEuler& system) const {
+    return Eigen::MatrixXd(Eigen::MatrixXd(system.A_ff()).selfadjointView<Eigen::Lower>());
+  }
+};
+
+// A_ff = M + h D + h^2 K on the free nodes, against the matrices assembled by triplets.
+TEST_P(ImplicitEulerTest, AssemblesTheStepMatrix) {
+  ImplicitEuler system(body_, mesh_.mount_nodes);
+  Eigen::Matrix3Xd x = mesh_.nodes;
+  x.row(2) += 0.1 * x.row(0);
+  const double h = 0.01;
+  const RayleighDamping damping{3.0, 2e-3};
+  system.Linearize(x, Eigen::Matrix3Xd::Zero(3, x.cols()), h, damping, kGravity);
+  const Eigen::MatrixXd K(body_.Stiffness(x));
+  const Eigen::MatrixXd A = DenseA(system);
+  const double largest = A.cwiseAbs().maxCoeff();
+  for (const int a : system.free_nodes()) {
+    for (const int b : system.free_nodes()) {
+      Eigen::Matrix3d expected = (h * damping.stiffness + h * h) * K.block<3, 3>(3 * a, 3 * b);
+      if (a == b) expected.diagonal().array() += (1.0 + h * damping.mass) * body_.masses()(a);
+      const Eigen::Matrix3d actual = A.block<3, 3>(system.FreeRow(a), system.FreeRow(b));
+      ASSERT_LT((actual - expected).cwiseAbs().maxCoeff(), 1e-12 * largest);
+    }
+  }
+}
+
+// Nothing clamped, gravity alone: all momentum gained in a step is m g h, whatever the elements do.
+TEST_P(ImplicitEulerTest, FreeFallGainsMomentum) {
+  ImplicitEuler system(body_, {});
+  const double h = 0.01;
+  system.Linearize(mesh_.nodes, Eigen::Matrix3Xd::Zero(3, mesh_.num_nodes()), h, {0.0, 2e-3},
+                   kGravity);
+  LinearSolver solver(LinearSolverParameters{});
+  ASSERT_TRUE(solver.Compute(system.A_ff()));
+  Eigen::VectorXd dv;
+  ASSERT_TRUE(solver.Solve(system.FreeRightHandSide(Eigen::Matrix3Xd(3, 0)), &dv));
+  const Eigen::Matrix3Xd velocity = system.Scatter(dv, Eigen::Matrix3Xd(3, 0));
+  const Eigen::Vector3d momentum = velocity * body_.masses();
+  EXPECT_LT((momentum - mass_ * h * kGravity).norm(), 1e-12 * mass_);
+}
+
+// At rest the clamp carries the weight; while it still swings, the balance holds with the momentum.
+TEST_P(ImplicitEulerTest, ReactionBalancesWeightAndMomentum) {
+  ImplicitEuler system(body_, mesh_.mount_nodes);
+  LinearSolver solver(LinearSolverParameters{});
+  const double h = 0.01;
+  Eigen::Matrix3Xd x = mesh_.nodes;
+  Eigen::Matrix3Xd v = Eigen::Matrix3Xd::Zero(3, x.cols());
+  const Eigen::Matrix3Xd held =
+      Eigen::Matrix3Xd::Zero(3, static_cast<Eigen::Index>(mesh_.mount_nodes.size()));
+  Eigen::Vector3d reaction;
+  for (int step = 0; step < 200; ++step) {
+    const Eigen::Vector3d momentum = v * body_.masses();
+    system.Linearize(x, v, h, {0.0, 2e-3}, kGravity);
+    ASSERT_TRUE(solver.Compute(system.A_ff()));
+    Eigen::VectorXd dv;
+    ASSERT_TRUE(solver.Solve(system.FreeRightHandSide(held), &dv));
+    reaction = system.ClampedReaction(dv, held).rowwise().sum();
+    v += system.Scatter(dv, held);
+    x += h * v;
+    const Eigen::Vector3d gained = v * body_.masses() - momentum;
+    ASSERT_LT((gained - h * (reaction + mass_ * kGravity)).norm(), 1e-12) << step;
+  }
+  EXPECT_LT((reaction + mass_ * kGravity).norm(), 1e-6 * mass_ * 9.81);
+  EXPECT_LT(x.row(2).minCoeff(), -1e-6);  // it sags
+}
+
+INSTANTIATE_TEST_SUITE_P(Orders, ImplicitEulerTest, testing::Bool(),
+                         [](const auto& info) { return info.param ? "Quadratic" : "Linear"; });
+
+TEST(LinearSolver, ConjugateGradientsReuseAnOldFactorisation) {
+  const TetMesh mesh = MakeBlock(3, 2, 2, {0.02, 0.01, 0.01}, false);
+  const ElasticBody body(mesh, {338000.0, 0.45, 1080.0});
+  ImplicitEuler system(body, mesh.mount_nodes);
+  LinearSolverParameters parameters;
+  parameters.method = LinearSolverMethod::kConjugateGradient;
+  parameters.refactor_interval = 3;
+  LinearSolver solver(parameters);
+  LinearSolver direct(LinearSolverParameters{});
+  Eigen::Matrix3Xd x = mesh.nodes;
+  const std::vector<bool> current{true, false, false, true, false};
+  for (const bool expected : current) {
+    x.row(2) += 0.05 * x.row(0);
+    system.Linearize(x, Eigen::Matrix3Xd::Zero(3, x.cols()), 0.01, {0.0, 2e-3}, kGravity);
+    ASSERT_TRUE(solver.Compute(system.A_ff()));
+    ASSERT_TRUE(direct.Compute(system.A_ff()));
+    EXPECT_EQ(solver.current(), expected);
+    EXPECT_EQ(solver.factorizations(), expected ? 1 : 0);
+    const Eigen::VectorXd b = Eigen::VectorXd::LinSpaced(system.A_ff().cols(), -1.0, 1.0);
+    Eigen::VectorXd by_cg;
+    Eigen::VectorXd by_factor;
+    ASSERT_TRUE(solver.Solve(b, &by_cg));
+    ASSERT_TRUE(direct.Solve(b, &by_factor));
+    EXPECT_LT((by_cg - by_factor).norm(), 1e-7 * by_factor.norm());
+    EXPECT_EQ(solver.iterations() > 0, !expected);
+  }
+}
+
+// Too few iterations allowed: it factorises anew rather than returning a wrong answer.
+TEST(LinearSolver, RefactorsWhenConjugateGradientsStall) {
+  const TetMesh mesh = MakeBlock(3, 2, 2, {0.02, 0.01, 0.01}, false);
+  const ElasticBody body(mesh, {338000.0, 0.45, 1080.0});
+  ImplicitEuler system(body, mesh.mount_nodes);
+  LinearSolverParameters parameters;
+  parameters.method = LinearSolverMethod::kConjugateGradient;
+  parameters.refactor_interval = 1000;
+  parameters.max_iterations = 1;
+  LinearSolver solver(parameters);
+  Eigen::Matrix3Xd x = mesh.nodes;
+  const Eigen::Matrix3Xd v = Eigen::Matrix3Xd::Zero(3, x.cols());
+  system.Linearize(x, v, 0.01, {0.0, 2e-3}, kGravity);
+  ASSERT_TRUE(solver.Compute(system.A_ff()));
+  x = (Eigen::AngleAxisd(1.0, Eigen::Vector3d::UnitY()).toRotationMatrix() * x).eval();
+  system.Linearize(x, v, 0.01, {0.0, 2e-3}, kGravity);
+  ASSERT_TRUE(solver.Compute(system.A_ff()));
+  EXPECT_FALSE(solver.current());
+  const Eigen::VectorXd b = Eigen::VectorXd::Ones(system.A_ff().cols());
+  Eigen::VectorXd y;
+  ASSERT_TRUE(solver.Solve(b, &y));
+  EXPECT_TRUE(solver.current());
+  EXPECT_LT((system.A_ff().selfadjointView<Eigen::Lower>() * y - b).norm(), 1e-9 * b.norm());
+}
+
+}  // namespace
+}  // namespace vacuum_gripper_sim
