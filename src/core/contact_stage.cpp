@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <iterator>
 #include <utility>
 
 #include "vacuum_gripper_sim/core/stopwatch.h"
@@ -24,7 +26,10 @@ ContactStage::ContactStage(const ImplicitEuler& system, LinearSolver* solver,
     : system_(&system),
       solver_(solver),
       surface_nodes_(std::move(surface_nodes)),
-      parameters_(parameters) {}
+      parameters_(parameters) {
+  std::copy_if(surface_nodes_.begin(), surface_nodes_.end(), std::back_inserter(contact_nodes_),
+               [&](int node) { return system_->FreeRow(node) >= 0; });
+}
 
 void ContactStage::ForgetForces() { warm_starts_.clear(); }
 
@@ -38,7 +43,7 @@ void ContactStage::Begin(const std::vector<RigidSurface>& surfaces, const Eigen:
   dv_c_ = dv_c;
   h_ = h;
   warm_starts_.resize(static_cast<std::size_t>(x.cols()) * surfaces.size(), 0.0);
-  narrow_phase_.Begin(surfaces, surface_nodes_, x);
+  narrow_phase_.Begin(surfaces, contact_nodes_, x);
   candidates_.clear();
   delassus_outdated_ = true;
   AddCandidates(narrow_phase_.Near(x, parameters_.alarm_distance));
@@ -184,7 +189,10 @@ Eigen::Matrix3Xd ContactStage::EndPositions(const Eigen::VectorXd& dv_f) const {
 void ContactStage::MeasureEnd(ContactSolution* solution) const {
   solution->distance = NearestDistances(*surfaces_, surface_nodes_, solution->x_W);
   double deepest = 0.0;
-  for (const double distance : solution->distance) deepest = std::min(deepest, distance);
+  for (std::size_t i = 0; i < surface_nodes_.size(); ++i) {
+    if (system_->FreeRow(surface_nodes_[i]) < 0) continue;
+    deepest = std::min(deepest, solution->distance[i]);
+  }
   solution->max_penetration = -deepest;
   solution->error = -deepest;
   for (const Candidate& candidate : candidates_) {

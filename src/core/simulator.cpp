@@ -17,18 +17,12 @@
 namespace vacuum_gripper_sim {
 namespace {
 
-/// The nodes that may touch: those of the boundary that are not clamped, ascending.
+/// The nodes of the whole boundary, ascending.
 std::vector<int> SurfaceNodes(const TetMesh& mesh) {
   std::vector<int> nodes(mesh.boundary_faces.data(),
                          mesh.boundary_faces.data() + mesh.boundary_faces.size());
   std::sort(nodes.begin(), nodes.end());
   nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
-  nodes.erase(std::remove_if(nodes.begin(), nodes.end(),
-                             [&](int node) {
-                               return std::binary_search(mesh.mount_nodes.begin(),
-                                                         mesh.mount_nodes.end(), node);
-                             }),
-              nodes.end());
   return nodes;
 }
 

@@ -120,6 +120,54 @@ TEST(Simulator, TiltedPressGivesATorque) {
   EXPECT_LE(cycle.result().max_penetration, 1e-6);
 }
 
+// A command a hall away and head over heels is one wild step, not the end: the cup finds its shape
+// again.
+TEST(Simulator, SurvivesATeleport) {
+  GripCycle cycle(LoadBell("linear_700"), A20(0.01));
+  const Eigen::Matrix3Xd rest = cycle.result().x_W;
+  const Eigen::Isometry3d start = cycle.result().X_WM;
+  Eigen::Isometry3d far = start;
+  far.translation() += Eigen::Vector3d(0.1, -0.3, 0.5);
+  far.linear() = Eigen::AngleAxisd(3.0, Eigen::Vector3d::UnitX()).toRotationMatrix() * far.linear();
+  for (int i = 0; i < 60; ++i) {
+    EXPECT_EQ(cycle.simulator().Step({far, 0.0}).outcome, StepOutcome::kOk);
+  }
+  const Eigen::Matrix3Xd expected = (far * start.inverse()) * rest;
+  EXPECT_LT((cycle.result().x_W - expected).cwiseAbs().maxCoeff(), 1e-6);
+}
+
+// Far beyond what the material model is good for, every state is still finite and free of
+// penetration.
+TEST(Simulator, StaysFiniteUnderExtremeVacuumAndPress) {
+  for (const double depth : {0.001, 0.009}) {
+    GripCycle cycle(LoadBell("linear_700"), A20(0.01));
+    cycle.Drive(kCupLength - depth, 0.02, 0.0, 0.05);
+    cycle.Drive(kCupLength - depth, 0.02, -60000.0, 0.7);
+    cycle.PullUntilLost(kCupLength + 0.02, 0.05, -60000.0, 0.1);
+    EXPECT_EQ(cycle.undone_steps, 0);
+    EXPECT_EQ(cycle.seal_flips, 2);
+    EXPECT_LE(cycle.max_penetration, 1e-6);
+    EXPECT_TRUE(cycle.result().x_W.allFinite());
+  }
+}
+
+// A cavity may reach up to the mount, as around an inlet: its clamped points carry suction into the
+// mount directly, and the balance holds.
+TEST(Simulator, CavityMayShareNodesWithTheMount) {
+  TetMesh mesh = LoadBell("linear_700");
+  const int port =
+      MakeCavitySurface(mesh).nodes[static_cast<std::size_t>(MakeCavitySurface(mesh).port.front())];
+  mesh.mount_nodes.push_back(port);
+  std::sort(mesh.mount_nodes.begin(), mesh.mount_nodes.end());
+  GripCycle cycle(mesh, A20(0.01));
+  cycle.Drive(kCupLength - 0.001, 0.01, 0.0, 0.1);
+  cycle.Drive(kCupLength - 0.001, 0.01, -6000.0, 0.4);
+  EXPECT_EQ(cycle.result().status, SealStatus::kSealed);
+  EXPECT_NEAR(cycle.result().force_M.z(),
+              6000.0 * cycle.result().cavity_area - cycle.result().contact_force, 1e-4);
+  EXPECT_EQ(cycle.undone_steps, 0);
+}
+
 // The plate that comes up to a resting cup presses it as the cup that comes down does.
 TEST(Simulator, MovingSurfacePressesTheCup) {
   GripCycle down(LoadBell("linear_700"), A20(0.01));

@@ -88,8 +88,8 @@ TEST(SolverPaths, APlaneABoxAndAHugeSphereAreTheSame) {
   EXPECT_NEAR(sphere.second, plane.second, 5e-3 * std::abs(plane.second));
 }
 
-// A ball whose lip circle (radius 18.75 mm) lies in the plane z = 0 is sealed as a plane is; a lying
-// pipe of 0.5 m radius is touched on two sides. Curved contact, no penetration.
+// A ball whose lip circle (radius 18.75 mm) lies in the plane z = 0 is sealed as a plane is; a
+// lying pipe of 0.5 m radius is touched on two sides. Curved contact, no penetration.
 TEST(SolverPaths, CurvedSurfacesAreNotPenetrated) {
   const double radius = 0.15;
   PressAndHoldOn(Sphere{radius}, {0.0, 0.0, -std::sqrt(radius * radius - 0.01875 * 0.01875)});

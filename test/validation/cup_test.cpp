@@ -98,8 +98,8 @@ TEST(CupHold, A30) {
     return Reference(force,
                      force * a20_nh.Force(clamp_uz, -6000.0) / a20_svk.Force(clamp_uz, -6000.0));
   };
-  // Outside the target of 0.3 mm: reached 0.35 mm, at the outer side of the lip, where the section
-  // of the reference itself is wrinkled.
+  // Outside the target of 0.3 mm: reached 0.35 mm, at the lowest points of the lip, where the
+  // reference's own section jumps to and fro (a wrinkled surface); 2902 elements reach 0.34 mm.
   PressAndHold({"A30", ReferenceA30(), 0.001, -11000.0, svk.Force(-0.001, 0.0), spread(-0.001),
                 "a30_profile_press1mm_11kPa.csv", Tolerance(0.3, 0.36)});
   PressAndHold({"A30", ReferenceA30(), 0.002, -11000.0, svk.Force(-0.002, 0.0), spread(-0.002),
@@ -161,7 +161,8 @@ TEST(CupUplift, A20AtMinus6kPa) {
   const ReferenceTable nh("a20_uplift_6kPa_neohooke.csv");
   std::vector<LiftPoint> points;
   for (const double lift : {0.0, 0.001}) points.push_back({lift, svk.Force(lift, -6000.0)});
-  // Outside the target of 5 %: reached 5.3 %, whatever time step and seal tolerance.
+  // Outside the target of 5 %: reached 5.3 %, whatever time step and seal tolerance; it is the
+  // mesh, 2902 elements reach 0.3 %.
   points.push_back({0.002, svk.Force(0.002, -6000.0), Tolerance(0.05, 0.055)});
   for (const double lift : {0.003, 0.0045, 0.0055}) {
     points.push_back({lift, {svk.Force(lift, -6000.0), nh.Force(lift, -6000.0)}});

@@ -88,6 +88,7 @@ class ContactStage {
   const ImplicitEuler* system_;
   LinearSolver* solver_;
   std::vector<int> surface_nodes_;
+  std::vector<int> contact_nodes_;  // those of them that are free
   ContactParameters parameters_;
 
   // Of the current step.

@@ -60,7 +60,7 @@ struct StepResult {
   double contact_force{0.0};   ///< Sum of the contacts' normal forces. [N]
   std::uint32_t num_contacts{0};    ///< Contacts that carry load.
   std::uint32_t num_candidates{0};  ///< Contact constraints in the problem.
-  double max_penetration{0.0};      ///< Over all surface nodes, >= 0. [m]
+  double max_penetration{0.0};      ///< Over all free surface nodes, >= 0. [m]
 
   Eigen::Matrix3Xd x_W;           ///< Deformed positions of all mesh nodes, 3 by #nodes. [m]
   Classification classification;  ///< Of the cavity points at the step's end.
