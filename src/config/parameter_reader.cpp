@@ -42,8 +42,8 @@ double ToDouble(const YAML::Node& value, const std::string& name) {
 
 }  // namespace
 
-ParameterReader::ParameterReader(YAML::Node node, std::string path)
-    : node_(node.IsDefined() ? std::move(node) : YAML::Node()), path_(std::move(path)) {
+ParameterReader::ParameterReader(const YAML::Node& node, std::string path)
+    : node_(node.IsDefined() ? node : YAML::Node()), path_(std::move(path)) {
   if (node_.IsNull()) return;
   if (!node_.IsMap()) Refuse(path_.empty() ? "the document" : path_, node_, "a map of keys");
   std::set<std::string> keys;

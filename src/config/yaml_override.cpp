@@ -75,7 +75,7 @@ Override ParseOverride(const std::string& assignment) {
   return {path, ParseYaml(assignment.substr(equals + 1), "--set " + path)};
 }
 
-void ApplyOverride(const Override& override_, YAML::Node root) {
+void ApplyOverride(const Override& override_, const YAML::Node& root) {
   Set(root, SplitPath(override_.path), 0, override_);
 }
 

@@ -21,7 +21,7 @@ namespace vacuum_gripper_sim {
 class ParameterReader {
  public:
   /// @param node A map, or a null node (an empty map). @param path Prefix of the names in messages.
-  explicit ParameterReader(YAML::Node node, std::string path = "");
+  explicit ParameterReader(const YAML::Node& node, std::string path = "");
 
   bool Has(const std::string& key) const;
   const std::string& path() const { return path_; }

@@ -18,6 +18,6 @@ Override ParseOverride(const std::string& assignment);
 /** Sets one key in a document. Maps on the way that are absent are made (whether the key means
  anything is for the document's reader to say); lists do not grow.
  @throws std::invalid_argument naming the path: an index out of range, a key below a value. */
-void ApplyOverride(const Override& override_, YAML::Node root);
+void ApplyOverride(const Override& override_, const YAML::Node& root);
 
 }  // namespace vacuum_gripper_sim

@@ -20,9 +20,10 @@ inline constexpr int kNumZones = 5;
 
 /// What the classifier says of the cavity surface.
 struct Classification {
-  double bottleneck_gap{0.0};  ///< g*: widest gap that leads from port to rim; < 0: loaded ring. [m]
-  std::vector<Zone> zones;     ///< A zone a point.
-  std::vector<bool> wet;       ///< The points that the cavity's pressure acts on if it is sealed.
+  double bottleneck_gap{
+      0.0};                 ///< g*: widest gap that leads from port to rim; < 0: loaded ring. [m]
+  std::vector<Zone> zones;  ///< A zone a point.
+  std::vector<bool> wet;    ///< The points that the cavity's pressure acts on if it is sealed.
   std::array<std::uint32_t, kNumZones> zone_counts{};
 };
 

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
 #include <array>
+#include <cstddef>
 #include <variant>
 #include <vector>
 
@@ -34,7 +35,9 @@ struct Tetrahedron {
 
   Nodes3 Gather(const Eigen::Matrix3Xd& values) const {
     Nodes3 gathered;
-    for (int a = 0; a < N; ++a) gathered.col(a) = values.col(nodes[a]);
+    for (std::size_t a = 0; a < N; ++a) {
+      gathered.col(static_cast<Eigen::Index>(a)) = values.col(nodes[a]);
+    }
     return gathered;
   }
 };

@@ -1,9 +1,8 @@
 #pragma once
 
+#include <Eigen/Geometry>
 #include <memory>
 #include <vector>
-
-#include <Eigen/Geometry>
 
 #include "vacuum_gripper_sim/core/cavity_surface.h"
 #include "vacuum_gripper_sim/core/parameters.h"

@@ -1,11 +1,10 @@
 #pragma once
 
+#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <cstdint>
 #include <string>
 #include <vector>
-
-#include <Eigen/Core>
-#include <Eigen/Geometry>
 
 #include "vacuum_gripper_sim/core/classifier.h"
 
@@ -13,8 +12,8 @@ namespace vacuum_gripper_sim {
 
 /// What the step is asked to reach.
 struct Command {
-  Eigen::Isometry3d X_WM{Eigen::Isometry3d::Identity()};  ///< Pose of the mount (`cup_frame`) at the
-                                                          ///< end of the step, in the world.
+  Eigen::Isometry3d X_WM{Eigen::Isometry3d::Identity()};  ///< Pose of the mount (`cup_frame`) at
+                                                          ///< the end of the step, in the world.
   double pressure_setpoint{0.0};  ///< Gauge pressure the regulator aims at. [Pa] <= 0
 };
 
@@ -47,18 +46,18 @@ struct StepResult {
   std::string message;  ///< What went wrong; empty if nothing did.
   double time{0.0};     ///< Simulated time since construction. [s]
 
-  Eigen::Isometry3d X_WM{Eigen::Isometry3d::Identity()};      ///< Pose of the mount.
+  Eigen::Isometry3d X_WM{Eigen::Isometry3d::Identity()};  ///< Pose of the mount.
   Eigen::Vector3d force_M{Eigen::Vector3d::Zero()};   ///< Of the cup on its mount, mount axes. [N]
   Eigen::Vector3d torque_M{Eigen::Vector3d::Zero()};  ///< About the mount's origin, its axes. [N m]
 
   SealStatus status{SealStatus::kOpen};
-  double gauge_pressure{0.0};  ///< lambda_p, in the cavity during this step. [Pa]
-  double setpoint{0.0};        ///< [Pa]
-  double bottleneck_gap{0.0};  ///< Widest gap that leads from port to rim; < 0: loaded ring. [m]
-  double cavity_area{0.0};     ///< Wet area projected on the suction axis. [m^2]
-  double cavity_volume{0.0};   ///< Between wet surface and the plane across its edge. [m^3]
-  double contact_force{0.0};   ///< Sum of the contacts' normal forces. [N]
-  std::uint32_t num_contacts{0};    ///< Contacts that carry load.
+  double gauge_pressure{0.0};     ///< lambda_p, in the cavity during this step. [Pa]
+  double setpoint{0.0};           ///< [Pa]
+  double bottleneck_gap{0.0};     ///< Widest gap that leads from port to rim; < 0: loaded ring. [m]
+  double cavity_area{0.0};        ///< Wet area projected on the suction axis. [m^2]
+  double cavity_volume{0.0};      ///< Between wet surface and the plane across its edge. [m^3]
+  double contact_force{0.0};      ///< Sum of the contacts' normal forces. [N]
+  std::uint32_t num_contacts{0};  ///< Contacts that carry load.
   std::uint32_t num_candidates{0};  ///< Contact constraints in the problem.
   double max_penetration{0.0};      ///< Over all free surface nodes, >= 0. [m]
 
