@@ -86,14 +86,14 @@ void ContactStage::UpdateDelassus(StepTimings* timings) {
   if (!delassus_outdated_) return;
   const Stopwatch stopwatch(&timings->delassus);
   const auto num_candidates = static_cast<Eigen::Index>(candidates_.size());
-  H_transposed_.resize(3 * system_->num_free(), num_candidates);
-  H_transposed_.reserve(Eigen::VectorXi::Constant(num_candidates, 3));
+  std::vector<Eigen::Triplet<double>> entries;
   for (int c = 0; c < num_candidates; ++c) {
     const Contact& contact = candidates_[static_cast<std::size_t>(c)].contact;
     const int row = system_->FreeRow(contact.node);
-    for (int i = 0; i < 3; ++i) H_transposed_.insert(row + i, c) = contact.normal(i);
+    for (int i = 0; i < 3; ++i) entries.emplace_back(row + i, c, contact.normal(i));
   }
-  H_transposed_.makeCompressed();
+  H_transposed_.resize(3 * system_->num_free(), num_candidates);
+  H_transposed_.setFromTriplets(entries.begin(), entries.end());
   // The Delassus operator W = h^2 H A^-1 H^T; the paper leaves the h^2, which makes it a
   // displacement a force, implicit.
   W_ = h_ * h_ * solver_->factorization().InverseForm(H_transposed_);
@@ -164,7 +164,8 @@ bool ContactStage::Solve(const Eigen::Matrix3Xd& load, ContactSolution* solution
     const Stopwatch stopwatch(&timings->narrow_phase);
     MeasureEnd(solution);
     const double bound =
-        std::max(10.0 * parameters_.tolerance, 2.0 * solution->statistics.residual);
+        std::min(parameters_.acceptable_residual,
+                 std::max(10.0 * parameters_.tolerance, 2.0 * solution->statistics.residual));
     std::vector<Contact> missed = narrow_phase_.Reaching(solution->x_W, parameters_.alarm_distance);
     missed.erase(std::remove_if(missed.begin(), missed.end(),
                                 [&](const Contact& contact) { return IsCandidate(contact); }),
@@ -205,12 +206,9 @@ void ContactStage::MeasureEnd(ContactSolution* solution) const {
 
 void ContactStage::Report(ContactSolution* solution) const {
   solution->num_candidates = static_cast<int>(candidates_.size());
-  solution->contact_force.setZero(3, x0_.cols());
   solution->lambda.setZero(x0_.cols());
   for (const Candidate& candidate : candidates_) {
-    const int node = candidate.contact.node;
-    solution->contact_force.col(node) += candidate.force * candidate.contact.normal;
-    solution->lambda(node) += candidate.force;
+    solution->lambda(candidate.contact.node) += candidate.force;
   }
 }
 

@@ -106,6 +106,7 @@ class Simulator::Implementation {
   bool Advance(const Command& command);
   void ReportWrench(const SuctionSolution& solution, const Eigen::Matrix3Xd& dv_c);
   void ReportCavity(const SuctionSolution& solution);
+  void ReportCavitySize();
 
   Eigen::Matrix3Xd rest_M_;  // rest positions in the mount frame [m]
   ElasticBody body_;
@@ -136,6 +137,7 @@ void Simulator::Implementation::Reset(const Eigen::Isometry3d& X_WM) {
   result_.gap = distance;
   result_.classification = Classify(cavity_, distance, parameters_.seal.open_gap);
   result_.bottleneck_gap = result_.classification.bottleneck_gap;
+  ReportCavitySize();
 }
 
 /// The mount's nodes end the step where the commanded pose puts them.
@@ -217,8 +219,10 @@ bool Simulator::Implementation::Advance(const Command& command) {
   if (!solution.contact.x_W.allFinite()) {
     return fail(StepOutcome::kNonFinite, "the corrected motion is not finite");
   }
+  result_.solver_iterations = solution.contact.statistics.iterations;
+  result_.solver_residual = solution.contact.statistics.residual;
   const double missed = std::max(solution.contact.error, solution.contact.statistics.residual);
-  if (missed > parameters_.contact.acceptable_residual) {
+  if (!(missed <= parameters_.contact.acceptable_residual)) {
     std::ostringstream message;
     message << "contact error " << missed << " m is above contact.acceptable_residual = "
             << parameters_.contact.acceptable_residual << " m";
@@ -245,9 +249,8 @@ void Simulator::Implementation::ReportWrench(const SuctionSolution& solution,
   Eigen::Vector3d torque_W = Eigen::Vector3d::Zero();
   for (Eigen::Index i = 0; i < reaction.cols(); ++i) {
     const int node = system_.clamped_nodes()[static_cast<std::size_t>(i)];
-    // Pressure and contact carry their share of the clamped rows themselves.
-    const Eigen::Vector3d on_mount_W =
-        -(reaction.col(i) - solution.load.col(node) - solution.contact.contact_force.col(node));
+    // Pressure loads clamped rows too; contacts do not: clamped nodes are never candidates.
+    const Eigen::Vector3d on_mount_W = -(reaction.col(i) - solution.load.col(node));
     force_W += on_mount_W;
     torque_W += (state_.x_W.col(node) - result_.X_WM.translation()).cross(on_mount_W);
   }
@@ -275,25 +278,26 @@ void Simulator::Implementation::ReportCavity(const SuctionSolution& solution) {
     result_.gap[i] = solution.contact.distance[static_cast<std::size_t>(place - nodes.begin())];
   }
 
-  const Eigen::Matrix3Xd area_vectors = PointAreaVectors(cavity_, state_.x_W);
-  Eigen::Vector3d wet_area_W = Eigen::Vector3d::Zero();
-  for (std::size_t i = 0; i < cavity_.nodes.size(); ++i) {
-    if (solution.classification.wet[i]) {
-      wet_area_W += area_vectors.col(static_cast<Eigen::Index>(i));
-    }
-  }
-  result_.cavity_area = std::abs(wet_area_W.dot(result_.X_WM.linear().col(2)));
-  result_.cavity_volume = WetVolume(cavity_, solution.classification.wet, state_.x_W, area_vectors);
-
+  ReportCavitySize();
   result_.contact_force = solution.contact.lambda.sum();
   result_.num_contacts =
       static_cast<std::uint32_t>((solution.contact.lambda.array() > 0.0).count());
   result_.num_candidates = static_cast<std::uint32_t>(solution.contact.num_candidates);
   result_.max_penetration = solution.contact.max_penetration;
-  result_.solver_iterations = solution.contact.statistics.iterations;
-  result_.solver_residual = solution.contact.statistics.residual;
   result_.linear_iterations = solver_.iterations();
   result_.factorizations = solver_.factorizations();
+}
+
+/// Area and volume of what the pressure acts on if the cavity is sealed.
+void Simulator::Implementation::ReportCavitySize() {
+  const std::vector<bool>& wet = result_.classification.wet;
+  const Eigen::Matrix3Xd area_vectors = PointAreaVectors(cavity_, state_.x_W);
+  Eigen::Vector3d wet_area_W = Eigen::Vector3d::Zero();
+  for (std::size_t i = 0; i < wet.size(); ++i) {
+    if (wet[i]) wet_area_W += area_vectors.col(static_cast<Eigen::Index>(i));
+  }
+  result_.cavity_area = std::abs(wet_area_W.dot(result_.X_WM.linear().col(2)));
+  result_.cavity_volume = WetVolume(cavity_, wet, state_.x_W, area_vectors);
 }
 
 Simulator::Simulator(TetMesh mesh, const SimulatorParameters& parameters,

@@ -13,9 +13,8 @@ Suction::Suction(const CavitySurface& cavity, const SealParameters& seal,
 
 Classification Suction::ClassifyEnd(const ContactSolution& contact, const ContactStage& stage,
                                     const std::vector<bool>& was_wet) const {
-  // Loaded points are ordered by their contact pressure. As a length it is the depth by which an
-  // elastic half space under a patch of the point's size would be indented, so that it compares
-  // with a gap; only its order decides anything.
+  // Loaded points are ordered by the depth by which an elastic half space under a patch of the
+  // point's size would be indented, p sqrt(a) / E: a length, as a gap is. Only its order decides.
   std::vector<double> phi(cavity_->nodes.size());
   for (std::size_t i = 0; i < phi.size(); ++i) {
     const int node = cavity_->nodes[i];
@@ -99,7 +98,6 @@ bool Suction::Solve(const Eigen::Matrix3Xd& x_W, double setpoint, double h, Cont
                     GripState* state, SuctionSolution* solution, StepTimings* timings) {
   num_nodes_ = x_W.cols();
   area_vectors_ = PointAreaVectors(*cavity_, x_W);
-  if (setpoint == 0.0) state->lost = false;
 
   const double largest_change = regulator_.ramp_rate * h;
   const double change = std::clamp(setpoint - state->pressure, -largest_change, largest_change);
@@ -117,6 +115,7 @@ bool Suction::Solve(const Eigen::Matrix3Xd& x_W, double setpoint, double h, Cont
     state->pressure = 0.0;
     solved = SolveWith({}, 0.0, stage, solution, timings);
   }
+  if (setpoint == 0.0) state->lost = false;  // venting may open the lip: that is no loss
   state->classification = solution->classification;
   return solved;
 }

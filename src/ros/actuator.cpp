@@ -25,6 +25,12 @@ Eigen::Isometry3d ToIsometry(const geometry_msgs::Transform& t) {
                     Eigen::Quaterniond(t.rotation.w, t.rotation.x, t.rotation.y, t.rotation.z));
 }
 
+/// Farther out, doubles are too coarse for gaps of micrometres.
+bool IsNearOrigin(const Eigen::Isometry3d& X_WM) {
+  constexpr double kFarthest = 1.0e+4;  // [m]
+  return X_WM.translation().cwiseAbs().maxCoeff() <= kFarthest;
+}
+
 void CheckFinite(const char* field, double value) {
   if (!std::isfinite(value)) {
     std::ostringstream reason;
@@ -104,7 +110,10 @@ Eigen::Isometry3d ResolvePoseCommand(const geometry_msgs::PoseStamped& command,
                                 world_frame + "' by tf: " + error.what());
   }
   const Eigen::Isometry3d X_WM = X_WF * ToIsometry(Eigen::Vector3d(p.x, p.y, p.z), rotation);
-  CheckFinite("pose.position in world_frame", X_WM.translation().sum());
+  if (!IsNearOrigin(X_WM)) {
+    throw std::invalid_argument("pose.position is too far from the origin of '" + world_frame +
+                                "', must be within 10 km");
+  }
   return X_WM;
 }
 
@@ -115,10 +124,16 @@ Eigen::Isometry3d LookUpFrame(const std::string& frame, const std::string& world
   const geometry_msgs::TransformStamped X_WF = tf.lookupTransform(world_frame, frame, ros::Time(0));
   if (stamp != nullptr) *stamp = X_WF.header.stamp;
   const Eigen::Isometry3d pose = ToIsometry(X_WF.transform);
-  if (!pose.matrix().allFinite()) {
-    throw tf2::TransformException("tf of '" + frame + "' is not finite");
+  if (!pose.matrix().allFinite() || !IsNearOrigin(pose)) {
+    throw tf2::TransformException("tf of '" + frame + "' is not finite or farther than 10 km");
   }
   return pose;
+}
+
+bool IsStale(const ros::Time& stamp) {
+  constexpr double kStaleAfter = 1.0;  // [s]
+  // In doubles: the difference of two ros::Times throws when it is longer than 68 years.
+  return !stamp.isZero() && ros::Time::now().toSec() - stamp.toSec() > kStaleAfter;
 }
 
 }  // namespace vacuum_gripper_sim

@@ -56,6 +56,9 @@ class Actuator {
 Eigen::Isometry3d ResolvePoseCommand(const geometry_msgs::PoseStamped& command,
                                      const std::string& world_frame, const tf2_ros::Buffer& tf);
 
+/// Has a frame that tf measured at `stamp` gone quiet? Static frames (stamp zero) never do.
+bool IsStale(const ros::Time& stamp);
+
 /** Latest pose of a tf frame in the world.
  @param[out] stamp When tf measured it; zero for a static or identical frame. May be null.
  @throws tf2::TransformException if tf does not know it. */

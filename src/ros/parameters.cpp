@@ -1,6 +1,7 @@
 #include "parameters.h"
 
 #include <cstdio>
+#include <sstream>
 #include <stdexcept>
 
 #include "vacuum_gripper_sim/config/package_paths.h"
@@ -167,6 +168,11 @@ NodeParameters ReadNodeParameters(const YAML::Node& node, const std::string& cup
   ParameterReader reader(node);
   NodeParameters parameters;
   parameters.rate = GetPositive(&reader, "rate", 1.0e+4);
+  if (parameters.rate < 10.0) {
+    std::ostringstream reason;
+    reason << "parameter rate = " << parameters.rate << " must be >= 10 and <= 10000 [Hz]";
+    throw std::invalid_argument(reason.str());
+  }
   parameters.world_frame = GetFrame(&reader, "world_frame");
   parameters.cup_frame = GetFrame(&reader, "cup_frame");
   const std::string actuator = reader.GetChoice("actuator", {"pose_command", "tf"}, "pose_command");

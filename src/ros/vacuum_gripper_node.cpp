@@ -46,6 +46,8 @@ VacuumGripperNode::VacuumGripperNode(const ros::NodeHandle& private_nh)
       diagnostics_(parameters_.cup.name, parameters_.diagnostic_period,
                    parameters_.simulator.time_step, parameters_.simulator.contact.tolerance) {
   AdvertiseAndSubscribe();
+  world_.Update(tf_buffer_, &simulator_);
+  simulator_.Reset(parameters_.X_WM);  // now it sees the world
   PublishState(ros::Time::now(), simulator_.result());
   ROS_INFO("cup %s: %d nodes, %d %s elements, %g Hz", parameters_.cup.name.c_str(),
            simulator_.mesh().num_nodes(), simulator_.mesh().num_elements(),
@@ -81,6 +83,7 @@ void VacuumGripperNode::Run() {
       case StepSchedule::Event::kJumpedBack:
         ROS_WARN("time jumped back: the cup is reset");
         tf_buffer_.clear();
+        mount_frame_seen_ = false;  // it begins anew where tf then says
         ResetCup();
         break;
       case StepSchedule::Event::kStep:
@@ -162,7 +165,12 @@ void VacuumGripperNode::OnPoseCommand(const geometry_msgs::PoseStamped& message)
 void VacuumGripperNode::FollowMountFrame() {
   const std::string& frame = parameters_.mount_frame;
   try {
-    actuator_.SetTarget(LookUpFrame(frame, parameters_.world_frame, tf_buffer_, nullptr));
+    ros::Time stamp;
+    actuator_.SetTarget(LookUpFrame(frame, parameters_.world_frame, tf_buffer_, &stamp));
+    if (IsStale(stamp) && throttle_.Pass("mount stale")) {
+      ROS_WARN("tf has not updated mount_frame '%s' for a while: the mount stays where it was last",
+               frame.c_str());
+    }
   } catch (const tf2::TransformException& error) {
     if (throttle_.Pass("mount")) {
       ROS_WARN("tf cannot place mount_frame '%s' in '%s' (%s): the mount stays where it is",

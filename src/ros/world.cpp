@@ -10,7 +10,6 @@
 namespace vacuum_gripper_sim {
 namespace {
 
-constexpr double kStaleAfter = 1.0;  // Age at which a moving frame counts as lost. [s]
 constexpr double kGrace = 1.0;  // For a frame that is not there, before it is worth a warning. [s]
 
 }  // namespace
@@ -58,10 +57,9 @@ bool World::LookUp(const tf2_ros::Buffer& tf, PlacedLink* placed) {
     ros::Time stamp;
     placed->X_WL = LookUpFrame(frame, world_frame_, tf, &stamp);
     placed->missing = ros::WallTime();
-    if (!stamp.isZero() && (ros::Time::now() - stamp).toSec() > kStaleAfter &&
-        throttle_.Pass("stale " + frame)) {
-      ROS_WARN("tf has not updated scene link '%s' for %.1f s: it stays where it was last seen",
-               frame.c_str(), (ros::Time::now() - stamp).toSec());
+    if (IsStale(stamp) && throttle_.Pass("stale " + frame)) {
+      ROS_WARN("tf has not updated scene link '%s' for a while: it stays where it was last seen",
+               frame.c_str());
     }
     return true;
   } catch (const tf2::TransformException& error) {

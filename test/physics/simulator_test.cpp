@@ -96,6 +96,19 @@ TEST(Simulator, PressureFollowsTheRamp) {
   EXPECT_EQ(cycle.result().gauge_pressure, 0.0);
 }
 
+// Vented while it is pulled off: the lip opens before the ramp has ended, but nothing was lost.
+TEST(Simulator, ADeliberateReleaseIsNoLoss) {
+  GripCycle cycle(LoadBell("linear_700"), A20(0.01));
+  cycle.Drive(kCupLength - 0.001, 0.01, 0.0, 0.1);
+  cycle.Drive(kCupLength + 0.005, 0.02, -6000.0);
+  EXPECT_EQ(cycle.result().status, SealStatus::kSealed);
+  for (double height = kCupLength + 0.005; height < kCupLength + 0.01; height += 0.0005) {
+    cycle.Drive(height, 0.05, 0.0);
+    EXPECT_NE(cycle.result().status, SealStatus::kLost);
+  }
+  EXPECT_EQ(cycle.result().status, SealStatus::kOpen);
+}
+
 TEST(Simulator, InTheAirSuctionHasNoEffect) {
   GripCycle cycle(LoadBell("linear_700"), A20(0.01));
   cycle.Drive(kCupLength + 0.005, 0.01, -6000.0, 0.05);

@@ -20,7 +20,7 @@ SCENE = '<robot name="r"><link name="a"><collision><geometry>%s</geometry></coll
 
 # Dotted name, values that must be refused besides "not set" and a wrong type.
 WRONG = {
-    'rate': [0.0, -100.0, 1.0e+6, float('nan')],
+    'rate': [0.0, -100.0, 5.0, 1.0e+6, float('nan')],
     'world_frame': ['', '/world', 5],
     'cup_frame': ['', '/cup', 'world', 5],
     'actuator': ['robot', 3],

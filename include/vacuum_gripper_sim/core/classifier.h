@@ -34,7 +34,7 @@ struct Classification {
  in order of decreasing opening phi (a watershed with two seeds):
 
      phi_i = gap_i >= 0 where point i carries no contact force,
-     phi_i = -c lambda_i / a_i < 0 where it does (c > 0 any compliance, [m/Pa]).
+     phi_i < 0 where it does, the lower the more it is loaded (any compliance makes it a length).
 
  The bottleneck g* is the largest value such that a path of points with phi >= g* joins port and
  border. A negative g* says that a loaded ring closes the cavity; the seal's tolerance is compared

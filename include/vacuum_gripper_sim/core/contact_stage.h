@@ -16,13 +16,12 @@ namespace vacuum_gripper_sim {
 
 /// End of a step under one pressure load.
 struct ContactSolution {
-  Eigen::VectorXd dv_f;            ///< Velocity change of the free nodes, 3 #free. [m/s]
-  Eigen::Matrix3Xd x_W;            ///< Positions of all nodes, 3 by #nodes. [m]
-  Eigen::Matrix3Xd contact_force;  ///< H_c^T lambda_c, 3 by #nodes, world axes. [N]
-  Eigen::VectorXd lambda;          ///< Normal force on each node, #nodes. [N]
-  std::vector<double> distance;    ///< Of each surface node to the nearest surface. [m]
-  double max_penetration{0.0};     ///< Over all surface nodes, >= 0. [m]
-  double error{0.0};               ///< Largest penetration, or gap under a loaded contact. [m]
+  Eigen::VectorXd dv_f;          ///< Velocity change of the free nodes, 3 #free. [m/s]
+  Eigen::Matrix3Xd x_W;          ///< Positions of all nodes, 3 by #nodes. [m]
+  Eigen::VectorXd lambda;        ///< Normal force on each node, #nodes. [N]
+  std::vector<double> distance;  ///< Of each surface node to the nearest surface. [m]
+  double max_penetration{0.0};   ///< Over all free surface nodes, >= 0. [m]
+  double error{0.0};             ///< Largest penetration, or gap under a loaded contact. [m]
   int num_candidates{0};
   McpStatistics statistics;  ///< Iterations summed, residual of the last solve.
 };

@@ -37,10 +37,6 @@ class SparseCholesky {
    @returns #columns square, symmetric. */
   Eigen::MatrixXd InverseForm(const Eigen::SparseMatrix<double>& B) const;
 
-  /// Scalars stored in L, explicit zeros of merged fronts included.
-  std::size_t factor_size() const { return factor_.size(); }
-  int num_fronts() const { return static_cast<int>(supernodes_.size()); }
-
  private:
   /// Columns eliminated together, as one dense front.
   struct Supernode {

@@ -51,13 +51,15 @@ struct StepResult {
   Eigen::Vector3d torque_M{Eigen::Vector3d::Zero()};  ///< About the mount's origin, its axes. [N m]
 
   SealStatus status{SealStatus::kOpen};
-  double gauge_pressure{0.0};     ///< lambda_p, in the cavity during this step. [Pa]
-  double setpoint{0.0};           ///< [Pa]
-  double bottleneck_gap{0.0};     ///< Widest gap that leads from port to rim; < 0: loaded ring. [m]
-  double cavity_area{0.0};        ///< Wet area projected on the suction axis. [m^2]
-  double cavity_volume{0.0};      ///< Between wet surface and the plane across its edge. [m^3]
-  double contact_force{0.0};      ///< Sum of the contacts' normal forces. [N]
-  std::uint32_t num_contacts{0};  ///< Contacts that carry load.
+  double gauge_pressure{0.0};  ///< lambda_p, in the cavity during this step. [Pa]
+  double setpoint{0.0};        ///< [Pa]
+  double bottleneck_gap{
+      0.0};  ///< Widest gap from port to rim; < 0: loaded ring; +inf: no surface. [m]
+  /// Of the points that the pressure acts on; of an open cup, of those a seal would close off.
+  double cavity_area{0.0};          ///< Projected on the suction axis. [m^2]
+  double cavity_volume{0.0};        ///< Up to the plane across the edge of those points. [m^3]
+  double contact_force{0.0};        ///< Sum of the contacts' normal forces. [N]
+  std::uint32_t num_contacts{0};    ///< Contacts that carry load.
   std::uint32_t num_candidates{0};  ///< Contact constraints in the problem.
   double max_penetration{0.0};      ///< Over all free surface nodes, >= 0. [m]
 

@@ -14,7 +14,7 @@ namespace vacuum_gripper_sim {
 /// What the cavity remembers from one step to the next.
 struct GripState {
   bool sealed{false};             ///< Airtight with the regulator at work.
-  bool lost{false};               ///< Was sealed under suction since the set-point left zero.
+  bool lost{false};               ///< Was sealed under suction in this grip and no longer is.
   double pressure{0.0};           ///< lambda_p, gauge. [Pa]
   Classification classification;  ///< Of the step's end; empty before the first step.
 };
