@@ -19,20 +19,6 @@ namespace {
 constexpr std::uint32_t kQueueSize = 10;
 constexpr double kMountIsBehind = 0.01;  // Distance to mount_frame that is worth a warning. [m]
 
-const char* NameOf(SealStatus status) {
-  switch (status) {
-    case SealStatus::kOpen:
-      return "open";
-    case SealStatus::kSealed:
-      return "sealed";
-    case SealStatus::kRegulating:
-      return "airtight, regulating";
-    case SealStatus::kLost:
-      return "lost";
-  }
-  return "unknown";
-}
-
 }  // namespace
 
 VacuumGripperNode::VacuumGripperNode(const ros::NodeHandle& private_nh)

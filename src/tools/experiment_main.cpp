@@ -126,20 +126,6 @@ class Outputs {
   std::optional<TimeseriesWriter> writer_;
 };
 
-const char* Name(SealStatus status) {
-  switch (status) {
-    case SealStatus::kOpen:
-      return "open";
-    case SealStatus::kSealed:
-      return "sealed";
-    case SealStatus::kRegulating:
-      return "regulating";
-    case SealStatus::kLost:
-      return "lost";
-  }
-  return "?";
-}
-
 /// About ten lines a run, at most one each 0.1 s of simulated time.
 class Progress {
  public:
@@ -152,7 +138,7 @@ class Progress {
     std::printf(
         "t %7.3f s  mount %8.3f mm  pressure %9.1f Pa  %-10s  force %8.4f N  contacts %3u%s\n",
         result.time, 1e3 * result.X_WM.translation().z(), result.gauge_pressure,
-        Name(result.status), force, static_cast<unsigned>(result.num_contacts),
+        NameOf(result.status), force, static_cast<unsigned>(result.num_contacts),
         result.outcome == StepOutcome::kOk ? "" : "  UNDONE");
     std::fflush(stdout);
   }

@@ -19,6 +19,8 @@ struct Command {
 
 /// State of the grip, numbered as in SealState.msg.
 enum class SealStatus : std::uint8_t { kOpen = 0, kSealed = 1, kRegulating = 2, kLost = 3 };
+/// For people: "open", "sealed", "regulating", "lost".
+const char* NameOf(SealStatus status);
 
 /// How a step ended. Failure is data, not an exception: the loop keeps its rate and reports it.
 enum class StepOutcome {
