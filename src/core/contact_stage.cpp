@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <iterator>
+#include <limits>
 #include <utility>
 
 #include "vacuum_gripper_sim/core/stopwatch.h"
@@ -188,11 +189,14 @@ Eigen::Matrix3Xd ContactStage::EndPositions(const Eigen::VectorXd& dv_f) const {
 }
 
 void ContactStage::MeasureEnd(ContactSolution* solution) const {
-  solution->distance = NearestDistances(*surfaces_, surface_nodes_, solution->x_W);
+  const std::vector<double> nearest = NearestDistances(*surfaces_, surface_nodes_, solution->x_W);
+  solution->distance.assign(static_cast<std::size_t>(x0_.cols()),
+                            std::numeric_limits<double>::infinity());
   double deepest = 0.0;
   for (std::size_t i = 0; i < surface_nodes_.size(); ++i) {
-    if (system_->FreeRow(surface_nodes_[i]) < 0) continue;
-    deepest = std::min(deepest, solution->distance[i]);
+    const int node = surface_nodes_[i];
+    solution->distance[static_cast<std::size_t>(node)] = nearest[i];
+    if (system_->FreeRow(node) >= 0) deepest = std::min(deepest, nearest[i]);
   }
   solution->max_penetration = -deepest;
   solution->error = -deepest;

@@ -272,12 +272,9 @@ void Simulator::Implementation::ReportCavity(const SuctionSolution& solution) {
   result_.x_W = state_.x_W;
   result_.classification = solution.classification;
   result_.bottleneck_gap = solution.classification.bottleneck_gap;
-  const std::vector<int>& nodes = stage_.surface_nodes();
   for (std::size_t i = 0; i < cavity_.nodes.size(); ++i) {
-    const auto place = std::lower_bound(nodes.begin(), nodes.end(), cavity_.nodes[i]);
-    result_.gap[i] = solution.contact.distance[static_cast<std::size_t>(place - nodes.begin())];
+    result_.gap[i] = solution.contact.distance[static_cast<std::size_t>(cavity_.nodes[i])];
   }
-
   ReportCavitySize();
   result_.contact_force = solution.contact.lambda.sum();
   result_.num_contacts =

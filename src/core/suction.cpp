@@ -11,7 +11,7 @@ Suction::Suction(const CavitySurface& cavity, const SealParameters& seal,
                  const RegulatorParameters& regulator, double young_modulus)
     : cavity_(&cavity), seal_(seal), regulator_(regulator), young_modulus_(young_modulus) {}
 
-Classification Suction::ClassifyEnd(const ContactSolution& contact, const ContactStage& stage,
+Classification Suction::ClassifyEnd(const ContactSolution& contact,
                                     const std::vector<bool>& was_wet) const {
   // Loaded points are ordered by the depth by which an elastic half space under a patch of the
   // point's size would be indented, p sqrt(a) / E: a length, as a gap is. Only its order decides.
@@ -24,9 +24,7 @@ Classification Suction::ClassifyEnd(const ContactSolution& contact, const Contac
           std::max(area_vectors_.col(static_cast<Eigen::Index>(i)).norm(), 1e-12);  // [m^2]
       phi[i] = -force / (young_modulus_ * std::sqrt(area));
     } else {
-      const auto& nodes = stage.surface_nodes();
-      const auto place = std::lower_bound(nodes.begin(), nodes.end(), node) - nodes.begin();
-      phi[i] = contact.distance[static_cast<std::size_t>(place)];
+      phi[i] = contact.distance[static_cast<std::size_t>(node)];
     }
   }
   return Classify(*cavity_, phi, seal_.open_gap, was_wet);
@@ -45,7 +43,7 @@ bool Suction::SolveWith(const std::vector<bool>& wet, double pressure, ContactSt
   if (!stage->Solve(solution->load, &solution->contact, timings)) return false;
   const Stopwatch stopwatch(&timings->classification);
   solution->classification =
-      ClassifyEnd(solution->contact, *stage, pressure != 0.0 ? wet : std::vector<bool>());
+      ClassifyEnd(solution->contact, pressure != 0.0 ? wet : std::vector<bool>());
   return true;
 }
 

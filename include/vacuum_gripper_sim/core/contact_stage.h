@@ -19,7 +19,8 @@ struct ContactSolution {
   Eigen::VectorXd dv_f;          ///< Velocity change of the free nodes, 3 #free. [m/s]
   Eigen::Matrix3Xd x_W;          ///< Positions of all nodes, 3 by #nodes. [m]
   Eigen::VectorXd lambda;        ///< Normal force on each node, #nodes. [N]
-  std::vector<double> distance;  ///< Of each surface node to the nearest surface. [m]
+  std::vector<double> distance;  ///< Of each node to the nearest rigid surface, #nodes; +inf for
+                                 ///< nodes inside the cup, and without surfaces. [m]
   double max_penetration{0.0};   ///< Over all free surface nodes, >= 0. [m]
   double error{0.0};             ///< Largest penetration, or gap under a loaded contact. [m]
   int num_candidates{0};
@@ -40,12 +41,10 @@ struct ContactSolution {
  first pass is exact. */
 class ContactStage {
  public:
-  /** @param surface_nodes Nodes that may touch, ascending; none of them clamped. All references
-     must outlive this. */
+  /** @param surface_nodes Nodes of the cup's surface, ascending. The clamped ones are measured, but
+     never in contact: the mount's motion is prescribed. All references must outlive this. */
   ContactStage(const ImplicitEuler& system, LinearSolver* solver, std::vector<int> surface_nodes,
                const ContactParameters& parameters);
-
-  const std::vector<int>& surface_nodes() const { return surface_nodes_; }
 
   /** Starts a step from its free motion; forgets the candidates of the last one.
    @param x,v State at the step's start, 3 by #nodes. @param dv_f Free motion, 3 #free.

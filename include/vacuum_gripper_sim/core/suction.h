@@ -58,11 +58,10 @@ class Suction {
   bool Solve(const Eigen::Matrix3Xd& x_W, double setpoint, double h, ContactStage* stage,
              GripState* state, SuctionSolution* solution, StepTimings* timings);
 
-  /// Classifies the cavity at the end of a contact solution.
-  Classification ClassifyEnd(const ContactSolution& contact, const ContactStage& stage,
-                             const std::vector<bool>& was_wet) const;
-
  private:
+  /// Classifies the cavity at the end of a contact solution.
+  Classification ClassifyEnd(const ContactSolution& contact,
+                             const std::vector<bool>& was_wet) const;
   bool SolveWith(const std::vector<bool>& wet, double pressure, ContactStage* stage,
                  SuctionSolution* solution, StepTimings* timings) const;
   bool HoldSeal(double pressure, ContactStage* stage, GripState* state, SuctionSolution* solution,
