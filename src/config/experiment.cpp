@@ -41,6 +41,10 @@ ExperimentOutcome RunExperiment(const Scenario& scenario, Simulator* simulator,
     outcome.stopped_early = ++undone_in_a_row >= kMaxUndoneInARow;
   }
   outcome.summary = accumulator.Summary();
+  outcome.summary.elements = simulator->mesh().num_elements();
+  outcome.summary.nodes = simulator->mesh().num_nodes();
+  outcome.summary.seal_close_gap = *simulator->parameters().seal.close_gap;
+  outcome.summary.seal_open_gap = *simulator->parameters().seal.open_gap;
   return outcome;
 }
 

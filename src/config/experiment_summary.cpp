@@ -109,6 +109,10 @@ void WriteSummary(const ExperimentSummary& summary, const std::string& scenario,
           << "undone_steps: " << std::to_string(summary.undone_steps) << '\n'
           << "max_penetration: " << Number(summary.max_penetration) << "  # m\n"
           << "min_gauge_pressure: " << Number(summary.min_gauge_pressure) << "  # Pa\n"
+          << "elements: " << std::to_string(summary.elements) << '\n'
+          << "nodes: " << std::to_string(summary.nodes) << '\n'
+          << "seal_close_gap: " << Number(summary.seal_close_gap) << "  # m\n"
+          << "seal_open_gap: " << Number(summary.seal_open_gap) << "  # m\n"
           << "simulated_time: " << Number(summary.simulated_time) << "  # s\n"
           << "median_step_ms: " << Number(summary.median_step_ms) << '\n'
           << "p99_step_ms: " << Number(summary.p99_step_ms) << '\n'

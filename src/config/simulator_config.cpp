@@ -32,8 +32,8 @@ ContactParameters ReadContact(ParameterReader reader) {
 
 SealParameters ReadSeal(ParameterReader reader) {
   SealParameters p;
-  p.close_gap = reader.GetDouble("close_gap", p.close_gap);
-  p.open_gap = reader.GetDouble("open_gap", p.open_gap);
+  if (reader.Has("close_gap")) p.close_gap = reader.GetDouble("close_gap");
+  if (reader.Has("open_gap")) p.open_gap = reader.GetDouble("open_gap");
   p.max_rounds = reader.GetInt("max_rounds", p.max_rounds);
   p.ramp_increments = reader.GetInt("ramp_increments", p.ramp_increments);
   reader.CheckNoUnknownKeys();

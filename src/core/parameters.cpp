@@ -59,9 +59,12 @@ void Validate(const SimulatorParameters& p) {
           p.contact.relaxation, "in (0, 2) [-]");
   RequirePositive("contact.alarm_distance", p.contact.alarm_distance, "[m]");
 
-  RequirePositive("seal.close_gap", p.seal.close_gap, "[m]");
-  Require(std::isfinite(p.seal.open_gap) && p.seal.open_gap >= p.seal.close_gap, "seal.open_gap",
-          p.seal.open_gap, "finite and >= seal.close_gap [m]");
+  if (p.seal.close_gap) RequirePositive("seal.close_gap", *p.seal.close_gap, "[m]");
+  if (p.seal.open_gap) {
+    const double gap = *p.seal.open_gap;
+    Require(std::isfinite(gap) && gap > 0.0 && gap >= p.seal.close_gap.value_or(0.0),
+            "seal.open_gap", gap, "finite, > 0 and >= seal.close_gap [m]");
+  }
   RequireAtLeastOne("seal.max_rounds", p.seal.max_rounds);
   RequireAtLeastOne("seal.ramp_increments", p.seal.ramp_increments);
 

@@ -11,6 +11,7 @@
 #include "vacuum_gripper_sim/core/elastic_body.h"
 #include "vacuum_gripper_sim/core/implicit_euler.h"
 #include "vacuum_gripper_sim/core/linear_solver.h"
+#include "vacuum_gripper_sim/core/seal_tolerance.h"
 #include "vacuum_gripper_sim/core/stopwatch.h"
 #include "vacuum_gripper_sim/core/suction.h"
 
@@ -24,6 +25,12 @@ std::vector<int> SurfaceNodes(const TetMesh& mesh) {
   std::sort(nodes.begin(), nodes.end());
   nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
   return nodes;
+}
+
+SimulatorParameters WithSealGaps(SimulatorParameters parameters, const CavitySurface& cavity,
+                                 const TetMesh& mesh) {
+  parameters.seal = ResolveSealGaps(parameters.seal, LipSagitta(cavity, mesh.nodes));
+  return parameters;
 }
 
 /// What a step changes and an undone step gives back.
@@ -74,14 +81,14 @@ class Simulator::Implementation {
  public:
   Implementation(TetMesh mesh, const SimulatorParameters& parameters, const Eigen::Isometry3d& X_WM)
       : mesh_(std::move(mesh)),
-        parameters_(parameters),
         cavity_(MakeCavitySurface(mesh_)),
+        parameters_(WithSealGaps(parameters, cavity_, mesh_)),
         rest_M_(MountFromRest(mesh_) * mesh_.nodes),
         body_(mesh_, parameters.material),
         system_(body_, mesh_.mount_nodes),
         solver_(parameters.linear_solver),
         stage_(system_, &solver_, SurfaceNodes(mesh_), parameters.contact),
-        suction_(cavity_, parameters.seal, parameters.regulator,
+        suction_(cavity_, parameters_.seal, parameters.regulator,
                  parameters.material.young_modulus) {
     Reset(X_WM);
   }
@@ -96,8 +103,8 @@ class Simulator::Implementation {
   ~Implementation() = default;
 
   TetMesh mesh_;
-  SimulatorParameters parameters_;
   CavitySurface cavity_;
+  SimulatorParameters parameters_;
   std::vector<RigidSurface> surfaces_;
   StepResult result_;
 
@@ -135,7 +142,7 @@ void Simulator::Implementation::Reset(const Eigen::Isometry3d& X_WM) {
   result_.x_W = state_.x_W;
   const std::vector<double> distance = NearestDistances(surfaces_, cavity_.nodes, state_.x_W);
   result_.gap = distance;
-  result_.classification = Classify(cavity_, distance, parameters_.seal.open_gap);
+  result_.classification = Classify(cavity_, distance, *parameters_.seal.open_gap);
   result_.bottleneck_gap = result_.classification.bottleneck_gap;
   ReportCavitySize();
 }

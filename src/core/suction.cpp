@@ -27,7 +27,7 @@ Classification Suction::ClassifyEnd(const ContactSolution& contact,
       phi[i] = contact.distance[static_cast<std::size_t>(node)];
     }
   }
-  return Classify(*cavity_, phi, seal_.open_gap, was_wet);
+  return Classify(*cavity_, phi, *seal_.open_gap, was_wet);
 }
 
 bool Suction::SolveWith(const std::vector<bool>& wet, double pressure, ContactStage* stage,
@@ -57,7 +57,7 @@ bool Suction::HoldSeal(double pressure, ContactStage* stage, GripState* state,
     wet = solution->classification.wet;
     if (std::find(seen.begin(), seen.end(), wet) != seen.end()) break;  // fixed point or cycle
   }
-  if (solution->classification.bottleneck_gap <= seal_.open_gap) {
+  if (solution->classification.bottleneck_gap <= *seal_.open_gap) {
     state->pressure = pressure;
     return true;
   }
@@ -70,7 +70,7 @@ bool Suction::HoldSeal(double pressure, ContactStage* stage, GripState* state,
 bool Suction::TryToSeal(double pressure, ContactStage* stage, GripState* state,
                         SuctionSolution* solution, StepTimings* timings) const {
   if (!SolveWith({}, 0.0, stage, solution, timings)) return false;  // (1)
-  if (solution->classification.bottleneck_gap >= seal_.close_gap) return true;
+  if (solution->classification.bottleneck_gap >= *seal_.close_gap) return true;
 
   std::vector<bool> wet = solution->classification.wet;
   for (int i = 1; i <= seal_.ramp_increments; ++i) {  // (2)
@@ -78,12 +78,12 @@ bool Suction::TryToSeal(double pressure, ContactStage* stage, GripState* state,
       return false;
     }
     wet = solution->classification.wet;
-    if (solution->classification.bottleneck_gap > seal_.open_gap) {
+    if (solution->classification.bottleneck_gap > *seal_.open_gap) {
       return SolveWith({}, 0.0, stage, solution, timings);  // suction opens it: no seal yet
     }
   }
   if (!SolveWith(wet, pressure, stage, solution, timings)) return false;  // (3)
-  if (solution->classification.bottleneck_gap > seal_.open_gap) {
+  if (solution->classification.bottleneck_gap > *seal_.open_gap) {
     return SolveWith({}, 0.0, stage, solution, timings);
   }
   state->sealed = true;

@@ -46,8 +46,6 @@ constexpr Required kRequired[] = {
     {"contact", "max_iterations"},
     {"contact", "relaxation"},
     {"contact", "alarm_distance"},
-    {"seal", "close_gap"},
-    {"seal", "open_gap"},
     {"seal", "max_rounds"},
     {"seal", "ramp_increments"},
     {"linear_solver", "method"},

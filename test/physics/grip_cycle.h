@@ -76,6 +76,7 @@ class GripCycle {
 
   const StepResult& result() const { return simulator_.result(); }
   Simulator& simulator() { return simulator_; }
+  double height() const { return height_; }  ///< Of the mount above the plane. [m]
 
   int seal_flips{0};
   int undone_steps{0};

@@ -220,7 +220,8 @@ TEST(Simulator, RefusesBadParametersByName) {
   p.material.density = kNan;
   expect_refused(p, "cup.density");
   p = A20(0.01);
-  p.seal.open_gap = 0.5 * p.seal.close_gap;
+  p.seal.close_gap = 2e-4;
+  p.seal.open_gap = 1e-4;
   expect_refused(p, "seal.open_gap");
   p = A20(0.01);
   p.contact.relaxation = 2.0;

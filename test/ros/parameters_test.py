@@ -37,7 +37,7 @@ WRONG = {
     'regulator.min_pressure': [0.0, 1.0, -200000.0],
     'regulator.ramp_rate': [0.0, -1.0],
     'seal.close_gap': [0.0, -1.0e-4],
-    'seal.open_gap': [1.0e-6],
+    'seal.open_gap': [0.0, -1.0e-4],
     'seal.max_rounds': [0, 1.5],
     'seal.ramp_increments': [0],
     'contact.solver': ['magic'],

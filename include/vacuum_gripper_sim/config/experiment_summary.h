@@ -25,6 +25,10 @@ struct ExperimentSummary {
   int undone_steps{0};                    ///< Steps that did not end as kOk.
   double max_penetration{0.0};            ///< [m]
   double min_gauge_pressure{0.0};         ///< Deepest vacuum in the cavity. [Pa]
+  int elements{0};                        ///< Tetrahedra of the cup.
+  int nodes{0};                           ///< Nodes of the cup.
+  double seal_close_gap{0.0};             ///< As given or derived from the mesh. [m]
+  double seal_open_gap{0.0};              ///< As given or derived from the mesh. [m]
   double simulated_time{0.0};             ///< [s]
   double median_step_ms{0.0};             ///< Wall time of a step. [ms]
   double p99_step_ms{0.0};                ///< Nearest rank. [ms]

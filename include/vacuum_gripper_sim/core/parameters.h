@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 
 namespace vacuum_gripper_sim {
 
@@ -43,8 +44,10 @@ struct ContactParameters {
 
 /// When the cavity counts as airtight.
 struct SealParameters {
-  double close_gap{1e-4};  ///< Sealed when the bottleneck gap falls below this. [m] > 0
-  double open_gap{1e-4};   ///< Lost when it rises above this. [m] >= close_gap
+  /// Sealed when the bottleneck gap falls below close_gap, lost when it rises above open_gap.
+  /// [m] > 0, close_gap <= open_gap. Not set: derived from the mesh, see ResolveSealGaps().
+  std::optional<double> close_gap;
+  std::optional<double> open_gap;
   int max_rounds{1};       ///< Reclassifications within a step with a seal. >= 1
   int ramp_increments{4};  ///< Pressure increments of a step without an earlier seal. >= 1
 };

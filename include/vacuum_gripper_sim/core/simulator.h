@@ -55,7 +55,7 @@ class Simulator {
   const StepResult& result() const;  ///< Of the last step, or the state at start.
   const TetMesh& mesh() const;
   const CavitySurface& cavity() const;
-  const SimulatorParameters& parameters() const;
+  const SimulatorParameters& parameters() const;  ///< With the seal's gaps set.
 
  private:
   class Implementation;

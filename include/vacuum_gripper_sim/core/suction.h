@@ -45,7 +45,8 @@ struct SuctionSolution {
  The regulator moves lambda_p towards the set-point by at most ramp_rate * h a step. */
 class Suction {
  public:
-  /// @param cavity Must outlive this. @param young_modulus Scales the order of loaded points. [Pa]
+  /// @param cavity Must outlive this. @param seal With its gaps set.
+  /// @param young_modulus Scales the order of loaded points. [Pa]
   Suction(const CavitySurface& cavity, const SealParameters& seal,
           const RegulatorParameters& regulator, double young_modulus);
 
