@@ -30,37 +30,18 @@ void NarrowPhase::Begin(const std::vector<RigidSurface>& surfaces, const std::ve
   }
 }
 
-template <typename Predicate>
-std::vector<Contact> NarrowPhase::Select(const Eigen::Matrix3Xd& x1_W,
-                                         const Predicate& wanted) const {
-  std::vector<Contact> contacts;
-  for (std::size_t i = 0; i < nodes_.size(); ++i) {
-    const Eigen::Vector3d way = x1_W.col(nodes_[i]) - x0_W_.col(nodes_[i]);
-    for (std::size_t s = 0; s < surfaces_->size(); ++s) {
-      const SurfaceDistance& seen = seen_[i * surfaces_->size() + s];
-      const double gap = seen.distance + seen.normal.dot(way);
-      if (wanted(seen.distance, gap)) {
-        contacts.push_back({nodes_[i], static_cast<int>(s), gap, seen.normal});
-      }
-    }
-  }
-  return contacts;
-}
-
-std::vector<Contact> NarrowPhase::Near(const Eigen::Matrix3Xd& x1_W, double alarm_distance) const {
-  return Select(x1_W, [&](double start, double) { return start < alarm_distance; });
-}
-
-std::vector<Contact> NarrowPhase::Reaching(const Eigen::Matrix3Xd& x1_W, double gap) const {
-  return Select(x1_W, [&](double, double end) { return end < gap; });
+Contact NarrowPhase::Ahead(std::size_t pair, const Eigen::Matrix3Xd& x1_W) const {
+  const SurfaceDistance& seen = seen_[pair];
+  const int node = nodes_[pair / surfaces_->size()];
+  const double gap = seen.distance + seen.normal.dot(x1_W.col(node) - x0_W_.col(node));
+  return {node, static_cast<int>(pair % surfaces_->size()), gap, seen.normal};
 }
 
 Contact NarrowPhase::Ahead(int node, int surface, const Eigen::Matrix3Xd& x1_W) const {
   const auto place = std::lower_bound(nodes_.begin(), nodes_.end(), node) - nodes_.begin();
-  const SurfaceDistance& seen = seen_[static_cast<std::size_t>(place) * surfaces_->size() +
-                                      static_cast<std::size_t>(surface)];
-  const double gap = seen.distance + seen.normal.dot(x1_W.col(node) - x0_W_.col(node));
-  return {node, surface, gap, seen.normal};
+  return Ahead(
+      static_cast<std::size_t>(place) * surfaces_->size() + static_cast<std::size_t>(surface),
+      x1_W);
 }
 
 Contact NarrowPhase::At(int node, int surface, const Eigen::Matrix3Xd& x_W) const {

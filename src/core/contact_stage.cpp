@@ -14,11 +14,9 @@ namespace {
 
 /// Passes over measuring, solving and correcting. Planes need one, or one more for each time that
 /// the motion brought new nodes to them; spheres two or three.
-constexpr int kMaxPasses = 12;
-
-bool Before(const Contact& a, const Contact& b) {
-  return a.node != b.node ? a.node < b.node : a.surface < b.surface;
-}
+constexpr int kMaxPasses = 24;
+/// An earlier factorisation that needs more is renewed.
+constexpr int kMaxStalePasses = 12;
 
 }  // namespace
 
@@ -35,145 +33,143 @@ ContactStage::ContactStage(const ImplicitEuler& system, LinearSolver* solver,
 void ContactStage::ForgetForces() { warm_starts_.clear(); }
 
 void ContactStage::Begin(const std::vector<RigidSurface>& surfaces, const Eigen::Matrix3Xd& x,
-                         const Eigen::Matrix3Xd& v, const Eigen::VectorXd& dv_f,
+                         const Eigen::Matrix3Xd& v, const Eigen::VectorXd& b,
                          const Eigen::Matrix3Xd& dv_c, double h) {
   surfaces_ = &surfaces;
   x0_ = x;
   v0_ = v;
-  dv_free_ = dv_f;
+  b_ = b;
   dv_c_ = dv_c;
   h_ = h;
-  warm_starts_.resize(static_cast<std::size_t>(x.cols()) * surfaces.size(), 0.0);
-  narrow_phase_.Begin(surfaces, contact_nodes_, x);
+  const std::size_t num_pairs = static_cast<std::size_t>(x.cols()) * surfaces.size();
+  warm_starts_.resize(num_pairs, 0.0);
+  is_candidate_.assign(num_pairs, false);
   candidates_.clear();
-  delassus_outdated_ = true;
-  AddCandidates(narrow_phase_.Near(x, parameters_.alarm_distance));
+  delassus_.Reset(solver_->factorization(), h);
+  narrow_phase_.Begin(surfaces, contact_nodes_, x);
+  AddCandidates(narrow_phase_.Select(
+      EndPositions(Eigen::VectorXd::Zero(b.size())), [&](const Contact& contact) {
+        return contact.gap < parameters_.alarm_distance || warm_starts_[PairIndex(contact)] > 0.0;
+      }));
 }
 
-double& ContactStage::WarmStart(const Contact& contact) {
-  return warm_starts_[static_cast<std::size_t>(contact.node) * surfaces_->size() +
-                      static_cast<std::size_t>(contact.surface)];
-}
-
-bool ContactStage::IsCandidate(const Contact& contact) const {
-  const auto place =
-      std::lower_bound(candidates_.begin(), candidates_.end(), contact,
-                       [](const Candidate& a, const Contact& b) { return Before(a.contact, b); });
-  return place != candidates_.end() && !Before(contact, place->contact);
+std::size_t ContactStage::PairIndex(const Contact& contact) const {
+  return static_cast<std::size_t>(contact.node) * surfaces_->size() +
+         static_cast<std::size_t>(contact.surface);
 }
 
 /// Once a candidate, a pair stays one to the end of the step: W grows and never flickers.
 void ContactStage::AddCandidates(const std::vector<Contact>& contacts) {
-  const auto old_size = static_cast<std::ptrdiff_t>(candidates_.size());
   for (const Contact& contact : contacts) {
-    candidates_.push_back({contact, WarmStart(contact), 0.0});
+    const std::size_t pair = PairIndex(contact);
+    is_candidate_[pair] = true;
+    candidates_.push_back({contact, warm_starts_[pair], 0.0});
   }
-  std::inplace_merge(
-      candidates_.begin(), candidates_.begin() + old_size, candidates_.end(),
-      [](const Candidate& a, const Candidate& b) { return Before(a.contact, b.contact); });
-  delassus_outdated_ |= !contacts.empty();
 }
 
 template <typename Measure>
 void ContactStage::MeasureCandidates(const Measure& measure) {
+  bool turned = false;
   for (Candidate& candidate : candidates_) {
     const Contact measured = measure(candidate.contact.node, candidate.contact.surface);
-    delassus_outdated_ |= measured.normal != candidate.contact.normal;
+    turned |= measured.normal != candidate.contact.normal;
     candidate.contact = measured;
   }
+  if (turned) delassus_.Reset(solver_->factorization(), h_);
 }
 
 void ContactStage::UpdateDelassus(StepTimings* timings) {
-  if (!delassus_outdated_) return;
   const Stopwatch stopwatch(&timings->delassus);
-  const auto num_candidates = static_cast<Eigen::Index>(candidates_.size());
-  std::vector<Eigen::Triplet<double>> entries;
-  for (int c = 0; c < num_candidates; ++c) {
-    const Contact& contact = candidates_[static_cast<std::size_t>(c)].contact;
-    const int row = system_->FreeRow(contact.node);
-    for (int i = 0; i < 3; ++i) entries.emplace_back(row + i, c, contact.normal(i));
+  std::vector<NodeColumn> H_rows;
+  for (auto i = static_cast<std::size_t>(delassus_.num_contacts()); i < candidates_.size(); ++i) {
+    const Contact& contact = candidates_[i].contact;
+    H_rows.push_back({system_->FreeRow(contact.node) / 3, contact.normal});
   }
-  H_transposed_.resize(3 * system_->num_free(), num_candidates);
-  H_transposed_.setFromTriplets(entries.begin(), entries.end());
-  // The Delassus operator W = h^2 H A^-1 H^T; the paper leaves the h^2, which makes it a
-  // displacement a force, implicit.
-  W_ = h_ * h_ * solver_->factorization().InverseForm(H_transposed_);
-  delassus_outdated_ = false;
+  delassus_.Append(H_rows);
 }
 
-void ContactStage::SolveCandidates(ContactSolution* solution, StepTimings* timings) {
+/// @param[in,out] y On entry the impulse, on exit with that of the forces' changes.
+void ContactStage::SolveCandidates(Eigen::VectorXd* y, ContactSolution* solution,
+                                   StepTimings* timings) {
   const Stopwatch stopwatch(&timings->solve);
   const auto num_candidates = static_cast<Eigen::Index>(candidates_.size());
-  Eigen::VectorXd delta(num_candidates);
+  Eigen::VectorXd delta = delassus_.GapChanges(*y);
   Eigen::VectorXd lambda(num_candidates);
   Eigen::VectorXd applied(num_candidates);
   for (Eigen::Index i = 0; i < num_candidates; ++i) {
     const Candidate& candidate = candidates_[static_cast<std::size_t>(i)];
-    delta(i) = candidate.contact.gap;
+    delta(i) += candidate.contact.gap;
     lambda(i) = candidate.force;
     applied(i) = candidate.applied;
   }
-  if (!applied.isZero(0.0)) delta.noalias() -= W_ * applied;
-  const McpStatistics statistics = SolveContacts(W_, delta, parameters_, &lambda);
+  if (!applied.isZero(0.0)) delta.noalias() -= delassus_.W() * applied;
+  const McpStatistics statistics = SolveContacts(delassus_.W(), delta, parameters_, &lambda);
   solution->statistics.iterations += statistics.iterations;
   solution->statistics.residual = statistics.residual;
   solution->statistics.converged = statistics.converged;
   for (Eigen::Index i = 0; i < num_candidates; ++i) {
     Candidate& candidate = candidates_[static_cast<std::size_t>(i)];
     candidate.force = lambda(i);
-    WarmStart(candidate.contact) = lambda(i);
+    warm_starts_[PairIndex(candidate.contact)] = lambda(i);
   }
+  delassus_.AddForces(lambda - applied, y);
 }
 
-bool ContactStage::Correct(const Eigen::VectorXd& dv_loaded, ContactSolution* solution,
-                           StepTimings* timings) {
-  const Stopwatch stopwatch(&timings->correction);
-  solution->dv_f = dv_loaded;
-  if (!candidates_.empty()) {
-    Eigen::VectorXd lambda(static_cast<Eigen::Index>(candidates_.size()));
-    for (Eigen::Index i = 0; i < lambda.size(); ++i) {
-      lambda(i) = candidates_[static_cast<std::size_t>(i)].force;
-    }
-    Eigen::VectorXd correction;
-    if (!solver_->Solve(h_ * (H_transposed_ * lambda), &correction)) return false;
-    solution->dv_f += correction;
+Eigen::VectorXd ContactStage::Imbalance(const Eigen::VectorXd& impulse,
+                                        const Eigen::VectorXd& dv_f) const {
+  Eigen::VectorXd r = impulse - solver_->Times(dv_f);
+  for (const Candidate& candidate : candidates_) {
+    r.segment<3>(system_->FreeRow(candidate.contact.node)) +=
+        h_ * candidate.force * candidate.contact.normal;
   }
-  solution->x_W = EndPositions(solution->dv_f);
-  return true;
+  return r;
 }
 
 bool ContactStage::Solve(const Eigen::Matrix3Xd& load, ContactSolution* solution,
                          StepTimings* timings) {
-  Eigen::VectorXd dv_loaded = dv_free_;
-  if (!load.isZero(0.0)) {
-    const Stopwatch stopwatch(&timings->correction);
-    Eigen::VectorXd dv_load;
-    if (!solver_->Solve(h_ * system_->GatherFree(load), &dv_load)) return false;
-    dv_loaded += dv_load;
-  }
-
   *solution = ContactSolution();
-  const Eigen::Matrix3Xd x_loaded = EndPositions(dv_loaded);
+  solution->dv_f.setZero(b_.size());
+  const Eigen::VectorXd impulse = b_ + h_ * system_->GatherFree(load);
+  Eigen::VectorXd y;
+  {
+    const Stopwatch stopwatch(&timings->free_motion);
+    y = solver_->factorization().Eliminate(impulse);
+  }
+  const Eigen::Matrix3Xd x_coasting = EndPositions(solution->dv_f);
   MeasureCandidates(
-      [&](int node, int surface) { return narrow_phase_.Ahead(node, surface, x_loaded); });
+      [&](int node, int surface) { return narrow_phase_.Ahead(node, surface, x_coasting); });
   for (Candidate& candidate : candidates_) candidate.applied = 0.0;
   for (int pass = 0; pass < kMaxPasses; ++pass) {
     UpdateDelassus(timings);
-    SolveCandidates(solution, timings);
-    if (!Correct(dv_loaded, solution, timings)) return false;
-
+    SolveCandidates(&y, solution, timings);
+    {
+      const Stopwatch stopwatch(&timings->correction);
+      solution->dv_f += solver_->factorization().BackSubstitute(y);
+      solution->x_W = EndPositions(solution->dv_f);
+    }
     const Stopwatch stopwatch(&timings->narrow_phase);
     MeasureEnd(solution);
     const double bound =
         std::min(parameters_.acceptable_residual,
                  std::max(10.0 * parameters_.tolerance, 2.0 * solution->statistics.residual));
-    std::vector<Contact> missed = narrow_phase_.Reaching(solution->x_W, parameters_.alarm_distance);
-    missed.erase(std::remove_if(missed.begin(), missed.end(),
-                                [&](const Contact& contact) { return IsCandidate(contact); }),
-                 missed.end());
+    const std::vector<Contact> missed =
+        narrow_phase_.Select(solution->x_W, [&](const Contact& contact) {
+          return contact.gap < parameters_.alarm_distance && !is_candidate_[PairIndex(contact)];
+        });
     const bool passed = std::any_of(missed.begin(), missed.end(),
                                     [&](const Contact& contact) { return contact.gap < -bound; });
-    if (!passed && solution->error <= bound) break;
+    bool balanced = true;
+    y.setZero();
+    if (!solver_->current()) {
+      const Eigen::VectorXd r = Imbalance(impulse, solution->dv_f);
+      balanced = r.norm() <= solver_->tolerance() * impulse.norm();
+      if (pass + 1 == kMaxStalePasses) {
+        if (!solver_->Renew()) return false;
+        delassus_.Reset(solver_->factorization(), h_);
+      }
+      y = solver_->factorization().Eliminate(r);
+    }
+    if (balanced && !passed && solution->error <= bound) break;
 
     MeasureCandidates(
         [&](int node, int surface) { return narrow_phase_.At(node, surface, solution->x_W); });

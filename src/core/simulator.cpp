@@ -207,18 +207,12 @@ bool Simulator::Implementation::Advance(const Command& command) {
       return fail(StepOutcome::kNonFinite, "A is not positive definite");
     }
   }
-  Eigen::VectorXd dv_free;
-  {
-    const Stopwatch stopwatch(&timings->free_motion);
-    if (!solver_.Solve(system_.FreeRightHandSide(dv_c), &dv_free)) {
-      return fail(StepOutcome::kUnconverged, "free motion: conjugate gradients did not converge");
-    }
-  }
-  if (!dv_free.allFinite()) return fail(StepOutcome::kNonFinite, "the free motion is not finite");
+  const Eigen::VectorXd b = system_.FreeRightHandSide(dv_c);
+  if (!b.allFinite()) return fail(StepOutcome::kNonFinite, "the free motion is not finite");
 
   // 2) to 4) Classification, constraint directions, W and the mixed complementarity problem.
   SuctionSolution solution;
-  stage_.Begin(surfaces_, state_.x_W, state_.v_W, dv_free, dv_c, h);
+  stage_.Begin(surfaces_, state_.x_W, state_.v_W, b, dv_c, h);
   if (!suction_.Solve(state_.x_W, command.pressure_setpoint, h, &stage_, &state_.grip, &solution,
                       timings)) {
     return fail(StepOutcome::kUnconverged, "a linear solve of the contacts did not converge");

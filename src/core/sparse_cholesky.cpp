@@ -1,38 +1,32 @@
 // Numbers: factorisation, solves and the inverse form.
 #include "vacuum_gripper_sim/core/sparse_cholesky.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
-#include <cstring>
 #include <numeric>
+
+#include "dense_kernels.h"
 
 namespace vacuum_gripper_sim {
 namespace {
 
 using Eigen::Index;
-using Panel = Eigen::Map<Eigen::MatrixXd>;
 using ConstPanel = Eigen::Map<const Eigen::MatrixXd>;
 
 }  // namespace
 
-/// Extend-add: a child's update goes to the panel of its parent and to what the parent passes on.
-void SparseCholesky::AddChild(const Supernode& child, const double* update, double* panel,
-                              double* own_update, const Supernode& front) const {
-  const Index child_size = 3 * child.num_below();
-  const Index panel_stride = 3 * front.num_rows();
-  const Index update_stride = 3 * front.num_below();
-  for (std::size_t b = 0; b < child.in_parent.size(); ++b) {
-    const int column_node = child.in_parent[b];
-    const bool own = column_node < front.width;
+/// Extend-add: columns [begin, end) of a child's update go into its parent's front.
+/// @param target Where column 0, row 0 of the front would stand. @param stride Of its columns.
+void SparseCholesky::AddChild(const Supernode& child, std::size_t begin, std::size_t end,
+                              double* target, Index stride) const {
+  const double* const update = UpdateOf(child);
+  const Index child_stride = 3 * child.num_below();
+  for (std::size_t b = begin; b < end; ++b) {
     for (int j = 0; j < 3; ++j) {
-      const double* source = update + (3 * static_cast<Index>(b) + j) * child_size;
-      // Row r of the front stands at target[3 r].
-      double* target = own ? panel + (3 * column_node + j) * panel_stride
-                           : own_update + (3 * (column_node - front.width) + j) * update_stride -
-                                 3 * front.width;
+      const double* const source = update + (3 * static_cast<Index>(b) + j) * child_stride;
+      double* const column = target + (3 * child.in_parent[b] + j) * stride;
       for (std::size_t a = b; a < child.in_parent.size(); ++a) {
-        double* to = target + 3 * child.in_parent[a];
-        const double* from = source + 3 * a;
+        double* const to = column + 3 * child.in_parent[a];
+        const double* const from = source + 3 * a;
         to[0] += from[0];
         to[1] += from[1];
         to[2] += from[2];
@@ -42,79 +36,64 @@ void SparseCholesky::AddChild(const Supernode& child, const double* update, doub
 }
 
 bool SparseCholesky::Factorize(const Eigen::SparseMatrix<double>& A) {
-  std::fill(factor_.begin(), factor_.end(), 0.0);
-  // Updates wait on a stack until their parent takes them: in postorder, a parent's children are on
-  // top. Its own update is made above them and then moved down over them.
-  std::vector<double> stack;
-  std::vector<std::size_t> update_at(supernodes_.size(), 0);
-  std::size_t top = 0;
-
-  for (std::size_t s = 0; s < supernodes_.size(); ++s) {
-    const Supernode& front = supernodes_[s];
+  for (const Supernode& front : supernodes_) {
     double* const panel = factor_.data() + front.offset;
     const Index rows = 3 * front.num_rows();
     const Index own = 3 * front.width;
     const Index below = rows - own;
-    const auto update_size = static_cast<std::size_t>(below * below);
-    if (stack.size() < top + update_size) stack.resize(2 * (top + update_size));
-    double* const update = stack.data() + top;
-    std::fill_n(update, update_size, 0.0);
-
+    std::fill_n(panel, rows * own, 0.0);
     for (std::size_t e = front.entries_begin; e < front.entries_end; ++e) {
       panel[entries_[e].second] += A.valuePtr()[entries_[e].first];
     }
     for (const int c : front.children) {
-      AddChild(supernodes_[static_cast<std::size_t>(c)],
-               stack.data() + update_at[static_cast<std::size_t>(c)], panel, update, front);
+      const Supernode& child = supernodes_[static_cast<std::size_t>(c)];
+      AddChild(child, 0, child.num_in_own, panel, rows);
     }
-
-    Panel F(panel, rows, own);
-    Eigen::Ref<Eigen::MatrixXd> diagonal = F.topRows(own);
-    const Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> llt(diagonal);
-    if (llt.info() != Eigen::Success) return false;
-    if (below > 0) {
-      auto L_below = F.bottomRows(below);
-      F.topRows(own).triangularView<Eigen::Lower>().transpose().solveInPlace<Eigen::OnTheRight>(
-          L_below);
-      Panel(update, below, below).selfadjointView<Eigen::Lower>().rankUpdate(L_below, -1.0);
+    if (!FactorizePanel(rows, own, panel)) return false;
+    if (below == 0) continue;
+    double* const update = UpdateOf(front);
+    NegativeSquare(below, own, panel + own, rows, update);
+    for (const int c : front.children) {
+      const Supernode& child = supernodes_[static_cast<std::size_t>(c)];
+      AddChild(child, child.num_in_own, child.in_parent.size(), update - own * (below + 1), below);
     }
-
-    const std::size_t bottom =
-        front.children.empty() ? top : update_at[static_cast<std::size_t>(front.children.front())];
-    if (bottom != top) std::memmove(stack.data() + bottom, update, update_size * sizeof(double));
-    update_at[s] = bottom;
-    top = bottom + update_size;
   }
   return true;
 }
 
-Eigen::VectorXd SparseCholesky::Solve(const Eigen::VectorXd& b) const {
+Eigen::VectorXd SparseCholesky::Eliminate(const Eigen::VectorXd& b) const {
   Eigen::VectorXd y(size_);
   for (std::size_t k = 0; k < node_at_.size(); ++k) {
     y.segment<3>(3 * static_cast<Index>(k)) = b.segment<3>(3 * node_at_[k]);
   }
-  Eigen::VectorXd work;
+  Eigen::VectorXd work(largest_front_);
   for (const Supernode& front : supernodes_) {
     const ConstPanel F(factor_.data() + front.offset, 3 * front.num_rows(), 3 * front.width);
     auto own = y.segment(3 * front.first, 3 * front.width);
     F.topRows(F.cols()).triangularView<Eigen::Lower>().solveInPlace(own);
     if (front.num_below() == 0) continue;
-    work.noalias() = F.bottomRows(F.rows() - F.cols()) * own;
+    auto below = work.head(3 * front.num_below());
+    below.noalias() = F.bottomRows(F.rows() - F.cols()) * own;
     for (int r = 0; r < front.num_below(); ++r) {
       y.segment<3>(3 * front.rows[static_cast<std::size_t>(front.width + r)]) -=
-          work.segment<3>(3 * r);
+          below.segment<3>(3 * r);
     }
   }
+  return y;
+}
+
+Eigen::VectorXd SparseCholesky::BackSubstitute(Eigen::VectorXd y) const {
+  Eigen::VectorXd work(largest_front_);
   for (auto front = supernodes_.rbegin(); front != supernodes_.rend(); ++front) {
     const ConstPanel F(factor_.data() + front->offset, 3 * front->num_rows(), 3 * front->width);
     auto own = y.segment(3 * front->first, 3 * front->width);
     if (front->num_below() > 0) {
-      work.resize(3 * front->num_below());
+      auto below = work.head(3 * front->num_below());
       for (int r = 0; r < front->num_below(); ++r) {
-        work.segment<3>(3 * r) =
+        below.segment<3>(3 * r) =
             y.segment<3>(3 * front->rows[static_cast<std::size_t>(front->width + r)]);
       }
-      own.noalias() -= F.bottomRows(F.rows() - F.cols()).transpose() * work;
+      own.noalias() -= F.bottomRows(F.rows() - F.cols()).transpose() * below;
     }
     F.topRows(F.cols()).triangularView<Eigen::Lower>().transpose().solveInPlace(own);
   }
@@ -125,72 +104,75 @@ Eigen::VectorXd SparseCholesky::Solve(const Eigen::VectorXd& b) const {
   return x;
 }
 
-Eigen::MatrixXd SparseCholesky::InverseForm(const Eigen::SparseMatrix<double>& B) const {
-  // Columns in elimination order of their node: those in the subtree below a front, which are the
-  // ones that reach it, then stand side by side.
-  const auto num_columns = static_cast<std::size_t>(B.cols());
-  std::vector<int> start(num_columns, 0);
-  for (int c = 0; c < B.cols(); ++c) {
-    const Eigen::SparseMatrix<double>::InnerIterator entry(B, c);
-    if (entry)
-      start[static_cast<std::size_t>(c)] = position_[static_cast<std::size_t>(entry.row() / 3)];
-  }
-  std::vector<int> order(num_columns);
-  std::iota(order.begin(), order.end(), 0);
-  std::stable_sort(order.begin(), order.end(), [&](int a, int b) {
-    return start[static_cast<std::size_t>(a)] < start[static_cast<std::size_t>(b)];
-  });
+/// Sorts the columns, gives a block to every front that one reaches, and fills in B.
+/// @param[out] block_of By supernode; -1: not reached.
+EliminatedColumns SparseCholesky::LayOutColumns(const std::vector<NodeColumn>& B,
+                                                std::vector<int>* block_of) const {
+  const auto start = [&](int c) {
+    return position_[static_cast<std::size_t>(B[static_cast<std::size_t>(c)].node)];
+  };
+  EliminatedColumns Y;
+  Y.order_.resize(B.size());
+  std::iota(Y.order_.begin(), Y.order_.end(), 0);
+  std::stable_sort(Y.order_.begin(), Y.order_.end(),
+                   [&](int a, int b) { return start(a) < start(b); });
 
-  Eigen::MatrixXd sorted = Eigen::MatrixXd::Zero(B.cols(), B.cols());
-  Eigen::MatrixXd Y = Eigen::MatrixXd::Zero(size_, B.cols());
-  for (Index c = 0; c < B.cols(); ++c) {
-    for (Eigen::SparseMatrix<double>::InnerIterator entry(B, order[static_cast<std::size_t>(c)]);
-         entry; ++entry) {
-      const int node = static_cast<int>(entry.row()) / 3;
-      Y(3 * position_[static_cast<std::size_t>(node)] + entry.row() % 3, c) = entry.value();
-    }
-  }
-
-  // First column in the subtree of each front, and one past the last that starts in it.
-  std::vector<Index> begin(supernodes_.size());
-  Index end = 0;
-  Eigen::MatrixXd work;
+  block_of->assign(supernodes_.size(), -1);
+  std::size_t offset = 0;
+  std::size_t end = 0;
   for (std::size_t s = 0; s < supernodes_.size(); ++s) {
     const Supernode& front = supernodes_[s];
-    begin[s] = end;
+    auto begin = static_cast<Index>(end);
     for (const int c : front.children) {
-      begin[s] = std::min(begin[s], begin[static_cast<std::size_t>(c)]);
+      const int block = (*block_of)[static_cast<std::size_t>(c)];
+      if (block >= 0) begin = std::min(begin, Y.blocks_[static_cast<std::size_t>(block)].column);
     }
-    while (end < B.cols() && start[static_cast<std::size_t>(order[static_cast<std::size_t>(end)])] <
-                                 front.first + front.width) {
-      ++end;
-    }
-    const Index width = end - begin[s];
-    if (width == 0) continue;
-    const ConstPanel F(factor_.data() + front.offset, 3 * front.num_rows(), 3 * front.width);
-    auto own = Y.block(3 * front.first, begin[s], 3 * front.width, width);
-    F.topRows(F.cols()).triangularView<Eigen::Lower>().solveInPlace(own);
-    sorted.block(begin[s], begin[s], width, width)
-        .selfadjointView<Eigen::Lower>()
-        .rankUpdate(own.transpose());
-    if (front.num_below() == 0) continue;
-    work.noalias() = F.bottomRows(F.rows() - F.cols()) * own;
-    for (int r = 0; r < front.num_below(); ++r) {
-      Y.block(3 * front.rows[static_cast<std::size_t>(front.width + r)], begin[s], 3, width) -=
-          work.middleRows(3 * r, 3);
-    }
+    while (end < B.size() && start(Y.order_[end]) < front.first + front.width) ++end;
+    const Index num_columns = static_cast<Index>(end) - begin;
+    if (num_columns == 0) continue;
+    (*block_of)[s] = static_cast<int>(Y.blocks_.size());
+    Y.blocks_.push_back({3 * front.first, 3 * front.width, begin, num_columns, offset});
+    offset += static_cast<std::size_t>(3 * front.width * num_columns);
   }
+  Y.values_.assign(offset, 0.0);
+  for (std::size_t k = 0; k < B.size(); ++k) {
+    const int position = start(Y.order_[k]);
+    const int s = supernode_of_[static_cast<std::size_t>(position)];
+    const auto& block =
+        Y.blocks_[static_cast<std::size_t>((*block_of)[static_cast<std::size_t>(s)])];
+    Y.Values(block).row(static_cast<Index>(k) - block.column).segment<3>(3 * position - block.row) =
+        B[static_cast<std::size_t>(Y.order_[k])].value.transpose();
+  }
+  return Y;
+}
 
-  Eigen::MatrixXd form(B.cols(), B.cols());
-  for (Index j = 0; j < B.cols(); ++j) {
-    for (Index i = j; i < B.cols(); ++i) {
-      const int row = order[static_cast<std::size_t>(i)];
-      const int column = order[static_cast<std::size_t>(j)];
-      form(row, column) = sorted(i, j);
-      form(column, row) = sorted(i, j);
+EliminatedColumns SparseCholesky::EliminateColumns(const std::vector<NodeColumn>& B) const {
+  std::vector<int> block_of;
+  EliminatedColumns Y = LayOutColumns(B, &block_of);
+  std::vector<double> work(static_cast<std::size_t>(largest_front_) * B.size());
+  for (std::size_t s = 0; s < supernodes_.size(); ++s) {
+    if (block_of[s] < 0) continue;
+    const Supernode& front = supernodes_[s];
+    const EliminatedColumns::Block& block = Y.blocks_[static_cast<std::size_t>(block_of[s])];
+    const double* const panel = factor_.data() + front.offset;
+    const Index rows = 3 * front.num_rows();
+    const Index own = 3 * front.width;
+    double* const Y_own = Y.values_.data() + block.offset;
+    SolveOnTheRight(block.num_columns, own, panel, rows, Y_own);
+    if (rows == own) continue;
+    NegativeProduct(block.num_columns, rows - own, own, Y_own, block.num_columns, panel + own, rows,
+                    work.data());
+    const ConstPanel update(work.data(), block.num_columns, rows - own);
+    for (int r = 0; r < front.num_below(); ++r) {
+      const int position = front.rows[static_cast<std::size_t>(front.width + r)];
+      const int above = supernode_of_[static_cast<std::size_t>(position)];
+      const auto& target =
+          Y.blocks_[static_cast<std::size_t>(block_of[static_cast<std::size_t>(above)])];
+      Y.Values(target).block(block.column - target.column, 3 * position - target.row,
+                             block.num_columns, 3) += update.middleCols(3 * r, 3);
     }
   }
-  return form;
+  return Y;
 }
 
 }  // namespace vacuum_gripper_sim

@@ -117,6 +117,7 @@ void SparseCholesky::Analyze(const Eigen::SparseMatrix<double>& A) {
   FindSupernodes(graph);
   MergeSmallSupernodes();
   LinkSupernodes();
+  PlaceUpdates();
   MapEntries(A);
 }
 
@@ -211,8 +212,10 @@ void SparseCholesky::LinkSupernodes() {
     std::fill_n(supernode_of_.begin() + supernode.first, supernode.width, static_cast<int>(s));
   }
   std::size_t offset = 0;
+  largest_front_ = 0;
   for (std::size_t s = 0; s < supernodes_.size(); ++s) {
     Supernode& supernode = supernodes_[s];
+    largest_front_ = std::max<Eigen::Index>(largest_front_, 3 * supernode.num_rows());
     supernode.offset = offset;
     offset += 9 * supernode.rows.size() * static_cast<std::size_t>(supernode.width);
     if (supernode.num_below() == 0) continue;
@@ -225,9 +228,30 @@ void SparseCholesky::LinkSupernodes() {
       const auto place =
           std::lower_bound(parent.rows.begin(), parent.rows.end(), supernode.rows[r]);
       supernode.in_parent.push_back(static_cast<int>(place - parent.rows.begin()));
+      if (supernode.in_parent.back() < parent.width) ++supernode.num_in_own;
     }
   }
   factor_.resize(offset);
+}
+
+void SparseCholesky::PlaceUpdates() {
+  for (auto front = supernodes_.rbegin(); front != supernodes_.rend(); ++front) {
+    if (front->parent >= 0) {
+      front->depth = supernodes_[static_cast<std::size_t>(front->parent)].depth + 1;
+    }
+  }
+  std::array<std::size_t, 2> top{};
+  std::array<std::size_t, 2> size{};
+  for (Supernode& front : supernodes_) {
+    const auto own = static_cast<std::size_t>(front.depth % 2);
+    front.update_offset = top[own];
+    top[own] += static_cast<std::size_t>(9 * front.num_below() * front.num_below());
+    size[own] = std::max(size[own], top[own]);
+    if (!front.children.empty()) {
+      top[1 - own] = supernodes_[static_cast<std::size_t>(front.children.front())].update_offset;
+    }
+  }
+  for (std::size_t i = 0; i < 2; ++i) updates_[i].resize(size[i]);
 }
 
 void SparseCholesky::MapEntries(const Eigen::SparseMatrix<double>& A) {

@@ -37,14 +37,16 @@ TEST(NarrowPhase, SeesANodePassThroughAThinSheet) {
   NarrowPhase narrow_phase;
   narrow_phase.Begin(surfaces, {0, 1, 2}, x0);
 
-  const std::vector<Contact> reaching = narrow_phase.Reaching(x1, 0.0);
+  const std::vector<Contact> reaching =
+      narrow_phase.Select(x1, [](const Contact& contact) { return contact.gap < 0.0; });
   ASSERT_EQ(reaching.size(), 1U);
   EXPECT_EQ(reaching[0].node, 0);
   EXPECT_EQ(reaching[0].surface, 0);
   EXPECT_NEAR(reaching[0].gap, -0.003, 1e-15);
   EXPECT_LT((reaching[0].normal - Eigen::Vector3d::UnitZ()).norm(), 1e-15);
 
-  const std::vector<Contact> near = narrow_phase.Near(x1, 5e-4);  // both that started near
+  const std::vector<Contact> near = narrow_phase.Select(
+      x1, [](const Contact& contact) { return contact.surface == 0 && contact.gap < 5e-4; });
   ASSERT_EQ(near.size(), 2U);
   EXPECT_EQ(near[1].node, 1);
   EXPECT_NEAR(near[1].gap, 2e-4, 1e-15);

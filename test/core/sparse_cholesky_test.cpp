@@ -59,27 +59,54 @@ TEST(SparseCholesky, HandlesAForest) {
   EXPECT_LT((Dense(A) * cholesky.Solve(b) - b).norm(), 1e-14);
 }
 
-TEST(SparseCholesky, InverseFormIsThatOfTheDenseInverse) {
-  const Eigen::SparseMatrix<double> A = StepMatrix(3, true);
-  std::mt19937 random(3);
+/// Columns at random nodes, some of them twice.
+std::vector<NodeColumn> RandomColumns(Eigen::Index num_rows, int num_columns, unsigned int seed) {
+  std::mt19937 random(seed);
   std::uniform_real_distribution<double> uniform(-1.0, 1.0);
-  const int num_nodes = static_cast<int>(A.cols()) / 3;
-  std::vector<Eigen::Triplet<double>> entries;
-  const int num_columns = 40;
-  for (int c = 0; c < num_columns; ++c) {
-    const int node = (c * 37) % num_nodes;  // some nodes twice
-    for (int i = 0; i < 3; ++i) entries.emplace_back(3 * node + i, c, uniform(random));
+  std::uniform_int_distribution<int> node(0, static_cast<int>(num_rows) / 3 - 1);
+  std::vector<NodeColumn> columns(static_cast<std::size_t>(num_columns));
+  for (NodeColumn& column : columns) {
+    column = {node(random), {uniform(random), uniform(random), uniform(random)}};
   }
-  Eigen::SparseMatrix<double> B(A.cols(), num_columns);
-  B.setFromTriplets(entries.begin(), entries.end());
+  return columns;
+}
+
+Eigen::MatrixXd Dense(const std::vector<NodeColumn>& columns, Eigen::Index num_rows) {
+  Eigen::MatrixXd B = Eigen::MatrixXd::Zero(num_rows, static_cast<Eigen::Index>(columns.size()));
+  for (std::size_t c = 0; c < columns.size(); ++c) {
+    B.block<3, 1>(3 * columns[c].node, static_cast<Eigen::Index>(c)) = columns[c].value;
+  }
+  return B;
+}
+
+TEST(SparseCholesky, EliminatedColumnsAreHalfOfTheInverse) {
+  const Eigen::SparseMatrix<double> A = StepMatrix(3, true);
   SparseCholesky cholesky;
   cholesky.Analyze(A);
   ASSERT_TRUE(cholesky.Factorize(A));
-  const Eigen::MatrixXd B_dense(B);
-  const Eigen::MatrixXd expected = B_dense.transpose() * Dense(A).llt().solve(B_dense);
-  const Eigen::MatrixXd form = cholesky.InverseForm(B);
-  EXPECT_LT((form - expected).norm(), 1e-12 * expected.norm());
-  EXPECT_EQ(form, form.transpose());
+  const Eigen::MatrixXd inverse =
+      Dense(A).llt().solve(Eigen::MatrixXd::Identity(A.rows(), A.rows()));
+  const auto first = RandomColumns(A.rows(), 40, 3);
+  const auto second = RandomColumns(A.rows(), 7, 4);
+  const Eigen::MatrixXd B = Dense(first, A.rows());
+  const Eigen::MatrixXd C = Dense(second, A.rows());
+  const EliminatedColumns Y = cholesky.EliminateColumns(first);
+  const EliminatedColumns Z = cholesky.EliminateColumns(second);
+
+  const Eigen::MatrixXd gram = B.transpose() * inverse * B;
+  EXPECT_LT((Y.Gram() - gram).norm(), 1e-12 * gram.norm());
+  EXPECT_EQ(Y.Gram(), Y.Gram().transpose());
+  const Eigen::MatrixXd product = B.transpose() * inverse * C;
+  EXPECT_LT((Y.TransposeTimes(Z) - product).norm(), 1e-12 * product.norm());
+
+  const Eigen::VectorXd b = Eigen::VectorXd::LinSpaced(A.cols(), -1.0, 2.0);
+  const Eigen::VectorXd seen = B.transpose() * inverse * b;
+  EXPECT_LT((Y.TransposeTimes(cholesky.Eliminate(b)) - seen).norm(), 1e-12 * seen.norm());
+  const Eigen::VectorXd x = Eigen::VectorXd::LinSpaced(40, -1.0, 1.0);
+  Eigen::VectorXd y = Eigen::VectorXd::Zero(A.cols());
+  Y.AddTimes(x, &y);
+  const Eigen::VectorXd moved = inverse * B * x;
+  EXPECT_LT((cholesky.BackSubstitute(y) - moved).norm(), 1e-12 * moved.norm());
 }
 
 TEST(SparseCholesky, RefusesWhatIsNotPositiveDefinite) {

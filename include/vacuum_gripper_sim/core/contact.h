@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
 #include <vector>
 
 #include "vacuum_gripper_sim/core/rigid_surface.h"
@@ -35,10 +36,16 @@ class NarrowPhase {
   void Begin(const std::vector<RigidSurface>& surfaces, const std::vector<int>& nodes,
              const Eigen::Matrix3Xd& x0_W);
 
-  /// Pairs that started nearer than `alarm_distance`, with their gap at x1. Nodes ascending.
-  std::vector<Contact> Near(const Eigen::Matrix3Xd& x1_W, double alarm_distance) const;
-  /// Pairs whose gap at x1 is below `gap`. Nodes ascending.
-  std::vector<Contact> Reaching(const Eigen::Matrix3Xd& x1_W, double gap) const;
+  /// The pairs, with their gap at x1, of which `wanted` is true. Nodes ascending.
+  template <typename Predicate>
+  std::vector<Contact> Select(const Eigen::Matrix3Xd& x1_W, const Predicate& wanted) const {
+    std::vector<Contact> contacts;
+    for (std::size_t i = 0; i < seen_.size(); ++i) {
+      const Contact contact = Ahead(i, x1_W);
+      if (wanted(contact)) contacts.push_back(contact);
+    }
+    return contacts;
+  }
 
   /// Gap of a pair at x1, seen from its start.
   Contact Ahead(int node, int surface, const Eigen::Matrix3Xd& x1_W) const;
@@ -46,8 +53,7 @@ class NarrowPhase {
   Contact At(int node, int surface, const Eigen::Matrix3Xd& x_W) const;
 
  private:
-  template <typename Predicate>
-  std::vector<Contact> Select(const Eigen::Matrix3Xd& x1_W, const Predicate& wanted) const;
+  Contact Ahead(std::size_t pair, const Eigen::Matrix3Xd& x1_W) const;
 
   const std::vector<RigidSurface>* surfaces_{nullptr};
   std::vector<int> nodes_;

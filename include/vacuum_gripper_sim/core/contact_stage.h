@@ -1,10 +1,10 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <Eigen/SparseCore>
 #include <vector>
 
 #include "vacuum_gripper_sim/core/contact.h"
+#include "vacuum_gripper_sim/core/delassus_operator.h"
 #include "vacuum_gripper_sim/core/implicit_euler.h"
 #include "vacuum_gripper_sim/core/linear_solver.h"
 #include "vacuum_gripper_sim/core/mcp_solver.h"
@@ -27,18 +27,26 @@ struct ContactSolution {
   McpStatistics statistics;  ///< Iterations summed, residual of the last solve.
 };
 
-/** Items 3 to 5 of [Bernardin, Sec. III-A] for contacts alone: given the free motion and the load
- of the cavity's pressure, finds the contact forces and the corrected motion.
+/** Items 1 and 3 to 5 of [Bernardin, Sec. III-A] for contacts alone: given the impulse b of the
+ free motion and the load of the cavity's pressure, finds the contact forces and the motion.
 
- Candidates are the pairs of node and surface that start the step nearer than the alarm distance.
- Every surface node is checked after the solve; those that passed a surface join the candidates, and
- gaps are measured anew at the end of the motion:
+ Free motion, load and contacts share one solve with A = P^T L L^T P: y = L^-1 P (b + h load) gives
+ the gaps, the forces add h Y lambda to it, and the second half turns the sum into the motion.
+
+ Candidates are the pairs of node and surface that carried a force at the last step, and those that
+ would end this one nearer than the alarm distance if the nodes kept their velocities. Every surface
+ node is checked after the solve; if some passed a surface, all that came that near join the
+ candidates, and gaps are measured anew at the end of the motion:
 
      delta = gap(x_end) - W lambda,      0 <= delta + W lambda'  perp  lambda' >= 0.
 
  At the fixed point lambda' = lambda the true gaps are complementary to the forces, also on curved
- surfaces and with a W from an earlier factorisation. On planes with the current factorisation the
- first pass is exact. */
+ surfaces. With an earlier factorisation the motion is refined too: what it leaves of the balance
+
+     r = b + h load + h H^T lambda - A dv
+
+ is the impulse of the next pass. On planes with the current factorisation a pass is exact for its
+ candidates. */
 class ContactStage {
  public:
   /** @param surface_nodes Nodes of the cup's surface, ascending. The clamped ones are measured, but
@@ -46,18 +54,19 @@ class ContactStage {
   ContactStage(const ImplicitEuler& system, LinearSolver* solver, std::vector<int> surface_nodes,
                const ContactParameters& parameters);
 
-  /** Starts a step from its free motion; forgets the candidates of the last one.
-   @param x,v State at the step's start, 3 by #nodes. @param dv_f Free motion, 3 #free.
-   @param dv_c Of the clamped nodes, 3 by #clamped. @param h Time step. [s] */
+  /** Starts a step; forgets the candidates of the last one.
+   @param x,v State at the step's start, 3 by #nodes. @param b Right-hand side of the free motion
+   A dv = b, 3 #free. [N s] @param dv_c Of the clamped nodes, 3 by #clamped. @param h Time step. [s]
+ */
   void Begin(const std::vector<RigidSurface>& surfaces, const Eigen::Matrix3Xd& x,
-             const Eigen::Matrix3Xd& v, const Eigen::VectorXd& dv_f, const Eigen::Matrix3Xd& dv_c,
+             const Eigen::Matrix3Xd& v, const Eigen::VectorXd& b, const Eigen::Matrix3Xd& dv_c,
              double h);
 
   /** Solves the contacts under a load; may be called several times a step.
    @param load Force on every node, 3 by #nodes. [N]
    @param[out] solution
-   @param[in,out] timings Adds to narrow_phase, delassus, solve and correction.
-   @returns false if a linear solve failed. */
+   @param[in,out] timings Adds to free_motion, narrow_phase, delassus, solve and correction.
+   @returns false if the solve failed. */
   bool Solve(const Eigen::Matrix3Xd& load, ContactSolution* solution, StepTimings* timings);
 
   /// Forgets the warm start, as after a reset.
@@ -77,11 +86,11 @@ class ContactStage {
   template <typename Measure>
   void MeasureCandidates(const Measure& measure);
   void UpdateDelassus(StepTimings* timings);
-  void SolveCandidates(ContactSolution* solution, StepTimings* timings);
-  bool Correct(const Eigen::VectorXd& dv_loaded, ContactSolution* solution, StepTimings* timings);
+  void SolveCandidates(Eigen::VectorXd* y, ContactSolution* solution, StepTimings* timings);
+  Eigen::VectorXd Imbalance(const Eigen::VectorXd& impulse, const Eigen::VectorXd& dv_f) const;
   void MeasureEnd(ContactSolution* solution) const;
   void Report(ContactSolution* solution) const;
-  double& WarmStart(const Contact& contact);
+  std::size_t PairIndex(const Contact& contact) const;
 
   const ImplicitEuler* system_;
   LinearSolver* solver_;
@@ -92,15 +101,14 @@ class ContactStage {
   // Of the current step.
   const std::vector<RigidSurface>* surfaces_{nullptr};
   Eigen::Matrix3Xd x0_, v0_, dv_c_;
-  Eigen::VectorXd dv_free_;
+  Eigen::VectorXd b_;
   double h_{0.0};
   NarrowPhase narrow_phase_;
-  std::vector<Candidate> candidates_;  // nodes ascending
-  bool delassus_outdated_{true};
-  Eigen::SparseMatrix<double> H_transposed_;  // 3 #free by #candidates
-  Eigen::MatrixXd W_;                         // [m/N]
+  std::vector<Candidate> candidates_;
+  std::vector<bool> is_candidate_;  // by pair
+  DelassusOperator delassus_;       // of the first candidates or of all
 
-  std::vector<double> warm_starts_;  // of (node, surface), node-major [N]
+  std::vector<double> warm_starts_;  // by pair [N]
 };
 
 }  // namespace vacuum_gripper_sim

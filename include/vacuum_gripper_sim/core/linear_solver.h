@@ -22,9 +22,18 @@ class LinearSolver {
    first call is that of all. @returns false if A is not positive definite. */
   bool Compute(const Eigen::SparseMatrix<double>& A);
 
+  /// Factorises the A of the last Compute(). @returns false if it is not positive definite.
+  bool Renew() { return Factorize(); }
+  double tolerance() const { return parameters_.tolerance; }
+
   /// Solves A y = b. With CG, refactors once if the tolerance is not met.
   /// @returns false if it is not met even then.
   bool Solve(const Eigen::VectorXd& b, Eigen::VectorXd* y);
+
+  /// A x, with the A of the last Compute().
+  Eigen::VectorXd Times(const Eigen::VectorXd& x) const {
+    return A_->selfadjointView<Eigen::Lower>() * x;
+  }
 
   /// The newest factorisation: of A with kDirect, of this or an earlier A with CG.
   const SparseCholesky& factorization() const { return factorization_; }

@@ -37,9 +37,9 @@ struct ContactParameters {
   double acceptable_residual{1e-6};  ///< A step that ends above this is undone. [m] >= tolerance
   int max_iterations{100};           ///< Gauss-Seidel sweeps or active-set changes. >= 1
   double relaxation{1.0};            ///< Gauss-Seidel: over-relaxation factor, in (0, 2). [-]
-  double alarm_distance{5e-4};       ///< Nodes that start a step nearer to a surface than this are
-                                ///< candidates; where others pass it, those nearer than this at the
-                                ///< end are added. [m] > 0
+  double alarm_distance{5e-5};       ///< Nodes that would end a step nearer to a surface than this
+                                ///< at their velocity, and those under load, are candidates; where
+                                ///< others pass it, all that come as near are added. [m] > 0
 };
 
 /// When the cavity counts as airtight.

@@ -2,17 +2,20 @@
 
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
+#include <array>
 #include <cstddef>
 #include <utility>
 #include <vector>
+
+#include "vacuum_gripper_sim/core/eliminated_columns.h"
 
 namespace vacuum_gripper_sim {
 
 /** Multifrontal Cholesky factorisation P A P^T = L L^T of a sparse symmetric positive definite
  matrix made of 3 by 3 node blocks ([Duff 1983], [Liu 1992]).
 
- The elimination works on dense fronts, so that the arithmetic runs in Eigen's blocked kernels: on
- the quadratic cup several times faster than a column-by-column factorisation. Ordering (minimum
+ The elimination works on dense fronts, so that the arithmetic runs in blocked kernels: on the
+ quadratic cup several times faster than a column-by-column factorisation. Ordering (minimum
  degree on the graph of nodes) and symbolic factorisation are done once by Analyze().
 
  [Duff 1983] I. S. Duff, J. K. Reid, "The multifrontal solution of indefinite sparse symmetric
@@ -30,12 +33,14 @@ class SparseCholesky {
   bool Factorize(const Eigen::SparseMatrix<double>& A);
 
   /// A^-1 b.
-  Eigen::VectorXd Solve(const Eigen::VectorXd& b) const;
+  Eigen::VectorXd Solve(const Eigen::VectorXd& b) const { return BackSubstitute(Eliminate(b)); }
+  /// L^-1 P b, the first half of a solve; in elimination order.
+  Eigen::VectorXd Eliminate(const Eigen::VectorXd& b) const;
+  /// P^T L^-T y, the second half.
+  Eigen::VectorXd BackSubstitute(Eigen::VectorXd y) const;
 
-  /** B^T A^-1 B = Y^T Y with Y = L^-1 P B, computed front by front on the columns that reach it.
-   @param B Sparse; the non-zeros of a column all belong to one node's three rows.
-   @returns #columns square, symmetric. */
-  Eigen::MatrixXd InverseForm(const Eigen::SparseMatrix<double>& B) const;
+  /// L^-1 P B front by front, on the columns that reach it.
+  EliminatedColumns EliminateColumns(const std::vector<NodeColumn>& B) const;
 
  private:
   /// Columns eliminated together, as one dense front.
@@ -45,7 +50,10 @@ class SparseCholesky {
     std::vector<int> rows;       ///< Nodes of the front, ascending; the first `width` are its own.
     int parent{-1};              ///< Supernode that takes the update; -1: a root.
     std::vector<int> in_parent;  ///< Place in the parent's rows of every row beyond the own ones.
+    std::size_t num_in_own{0};   ///< How many of these are the parent's own nodes: the first.
     std::vector<int> children;
+    int depth{0};                  ///< Supernodes above.
+    std::size_t update_offset{0};  ///< Of the update in updates_[depth % 2].
     std::size_t offset{0};  ///< Of the front's panel in factor_: 3 #rows by 3 width, column-major.
     std::size_t entries_begin{0}, entries_end{0};  ///< Of entries_: A's values that enter here.
 
@@ -57,18 +65,32 @@ class SparseCholesky {
   void FindSupernodes(const std::vector<std::vector<int>>& graph);
   void MergeSmallSupernodes();
   void LinkSupernodes();
+  void PlaceUpdates();
   void MapEntries(const Eigen::SparseMatrix<double>& A);
-  void AddChild(const Supernode& child, const double* update, double* panel, double* own_update,
-                const Supernode& front) const;
+  EliminatedColumns LayOutColumns(const std::vector<NodeColumn>& B,
+                                  std::vector<int>* block_of) const;
+  void AddChild(const Supernode& child, std::size_t begin, std::size_t end, double* target,
+                Eigen::Index stride) const;
+  /// What a front leaves to its parent, 3 #below square.
+  const double* UpdateOf(const Supernode& front) const {
+    return updates_[static_cast<std::size_t>(front.depth % 2)].data() + front.update_offset;
+  }
+  double* UpdateOf(const Supernode& front) {
+    return updates_[static_cast<std::size_t>(front.depth % 2)].data() + front.update_offset;
+  }
 
-  Eigen::Index size_{0};       // scalars
-  std::vector<int> position_;  // of a node in elimination order
-  std::vector<int> node_at_;   // the inverse
-  std::vector<int> tree_;      // elimination tree, by position; -1: root
+  Eigen::Index size_{0};           // scalars
+  Eigen::Index largest_front_{0};  // rows, scalars
+  std::vector<int> position_;      // of a node in elimination order
+  std::vector<int> node_at_;       // the inverse
+  std::vector<int> tree_;          // elimination tree, by position; -1: root
   std::vector<Supernode> supernodes_;
   std::vector<int> supernode_of_;             // by position
   std::vector<std::pair<int, int>> entries_;  // (value of A, place in the panel), by supernode
   std::vector<double> factor_;
+  /// Updates that wait for their parent, on two stacks: in postorder a front finds its children on
+  /// top of one and leaves its own update on the other.
+  std::array<std::vector<double>, 2> updates_;
 };
 
 }  // namespace vacuum_gripper_sim

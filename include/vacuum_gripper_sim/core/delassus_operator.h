@@ -1,0 +1,40 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "vacuum_gripper_sim/core/eliminated_columns.h"
+#include "vacuum_gripper_sim/core/sparse_cholesky.h"
+
+namespace vacuum_gripper_sim {
+
+/** The Delassus operator W = h^2 H A^-1 H^T = h^2 Y^T Y, Y = L^-1 P H^T, of contacts that become
+ more: new ones cost their own columns of Y and their rows of W.
+
+ The paper leaves the h^2, which makes W displacement [m] over force [N], implicit. Y also serves
+ the rest of the step: what an impulse does to the gaps, and what the forces add to the motion, are
+ products with it in the middle of the one solve with A. */
+class DelassusOperator {
+ public:
+  /// Starts anew without contacts. @param factorization Of A [kg]; must outlive this.
+  /// @param h Time step. [s]
+  void Reset(const SparseCholesky& factorization, double h);
+  /// @param H_rows Gradients of the gaps of more contacts, by node of the free system. [-]
+  void Append(const std::vector<NodeColumn>& H_rows);
+
+  int num_contacts() const { return static_cast<int>(W_.rows()); }
+  /// #contacts square, symmetric. [m/N]
+  const Eigen::MatrixXd& W() const { return W_; }
+  /// h H A^-1 b of an impulse b [N s] given as y = L^-1 P b. [m]
+  Eigen::VectorXd GapChanges(const Eigen::VectorXd& y) const;
+  /// y += L^-1 P h H^T lambda. @param lambda Contact forces. [N]
+  void AddForces(const Eigen::VectorXd& lambda, Eigen::VectorXd* y) const;
+
+ private:
+  const SparseCholesky* factorization_{nullptr};
+  double h_{0.0};
+  std::vector<EliminatedColumns> batches_;  // Y, in the order of the contacts
+  Eigen::MatrixXd W_;
+};
+
+}  // namespace vacuum_gripper_sim

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <vector>
+
+namespace vacuum_gripper_sim {
+
+/// A sparse column: three entries, at the rows of one node.
+struct NodeColumn {
+  int node{0};
+  Eigen::Vector3d value{Eigen::Vector3d::Zero()};
+};
+
+/** Y = L^-1 P B for a B of node columns: half of A^-1 B with P A P^T = L L^T, so that
+ B^T A^-1 B = Y^T Y. Made by SparseCholesky::EliminateColumns().
+
+ A column is zero outside the path of its node through the elimination tree. Columns are sorted by
+ their node's place in that order; those in the subtree below a front then stand side by side, and
+ each front stores its rows of just those. */
+class EliminatedColumns {
+ public:
+  int num_columns() const { return static_cast<int>(order_.size()); }
+
+  /// Y^T y. @param y In elimination order, as SparseCholesky::Eliminate() returns it.
+  Eigen::VectorXd TransposeTimes(const Eigen::VectorXd& y) const;
+  /// y += Y x. @param x A value a column.
+  void AddTimes(const Eigen::VectorXd& x, Eigen::VectorXd* y) const;
+  /// Y^T Y, symmetric.
+  Eigen::MatrixXd Gram() const;
+  /// Y^T Z. @param other Z, of the same factorisation.
+  Eigen::MatrixXd TransposeTimes(const EliminatedColumns& other) const;
+
+ private:
+  friend class SparseCholesky;
+
+  /// Rows `row`, ... of the sorted columns `column`, ...; transposed: #columns by #rows.
+  struct Block {
+    Eigen::Index row{0}, num_rows{0};
+    Eigen::Index column{0}, num_columns{0};
+    std::size_t offset{0};
+  };
+  using ConstView = Eigen::Map<const Eigen::MatrixXd>;
+  using View = Eigen::Map<Eigen::MatrixXd>;
+  ConstView Values(const Block& block) const {
+    return {values_.data() + block.offset, block.num_columns, block.num_rows};
+  }
+  View Values(const Block& block) {
+    return {values_.data() + block.offset, block.num_columns, block.num_rows};
+  }
+  Eigen::MatrixXd InGivenOrder(const Eigen::MatrixXd& sorted, const EliminatedColumns& other) const;
+
+  std::vector<int> order_;     // the sorted columns' numbers in B
+  std::vector<Block> blocks_;  // rows ascending
+  std::vector<double> values_;
+};
+
+}  // namespace vacuum_gripper_sim

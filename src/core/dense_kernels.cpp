@@ -1,0 +1,184 @@
+#include "dense_kernels.h"
+
+#include <algorithm>
+#include <cmath>
+#include <type_traits>
+
+namespace vacuum_gripper_sim {
+namespace {
+
+using Eigen::Index;
+
+/// Rows of a tile: two vector registers, so that with six columns twelve sums are in flight.
+constexpr int kTileRows = EIGEN_MAX_STATIC_ALIGN_BYTES >= 16 ? EIGEN_MAX_STATIC_ALIGN_BYTES / 4 : 4;
+constexpr int kTileColumns = 6;
+/// Columns of the operands that are read again and again, a multiple of the tile's.
+constexpr Index kDepth = 48;
+
+enum class Write { kAssign, kSubtract };
+
+template <int kRows>
+using Column = Eigen::Matrix<double, kRows, 1>;
+
+/// Calls f(row, integral constant #rows) on tiles of [begin, end): full ones, then halves.
+template <int kRows = kTileRows, typename Function>
+void ForRowTiles(Index begin, Index end, const Function& f) {
+  for (; begin + kRows <= end; begin += kRows) f(begin, std::integral_constant<int, kRows>());
+  if constexpr (kRows > 1) {
+    if (begin < end) ForRowTiles<kRows / 2>(begin, end, f);
+  }
+}
+
+/// The same for columns, whose number is a multiple of 3.
+template <typename Function>
+void ForColumnTiles(Index end, const Function& f) {
+  Index begin = 0;
+  for (; begin + kTileColumns <= end; begin += kTileColumns) {
+    f(begin, std::integral_constant<int, kTileColumns>());
+  }
+  if (begin < end) f(begin, std::integral_constant<int, kTileColumns / 2>());
+}
+
+/// C = -A B^T or C -= A B^T of one tile.
+template <int kRows, int kColumns, Write kWrite>
+void Tile(Index depth, const double* a, Index stride_a, const double* b, Index stride_b, double* c,
+          Index stride_c) {
+  Column<kRows> sums[kColumns];
+  for (int j = 0; j < kColumns; ++j) sums[j].setZero();
+  for (Index k = 0; k < depth; ++k) {
+    const Column<kRows> x = Eigen::Map<const Column<kRows>>(a + k * stride_a);
+    for (int j = 0; j < kColumns; ++j) sums[j] += b[j + k * stride_b] * x;
+  }
+  for (int j = 0; j < kColumns; ++j) {
+    Eigen::Map<Column<kRows>> target(c + j * stride_c);
+    if constexpr (kWrite == Write::kAssign) {
+      target = -sums[j];
+    } else {
+      target -= sums[j];
+    }
+  }
+}
+
+/// X = X L^-T of one tile. @param inverse_diagonal Of L.
+template <int kRows, int kColumns>
+void SolveTile(const double* L, Index stride_L, const double* inverse_diagonal, double* X,
+               Index stride_X) {
+  Column<kRows> x[kColumns];
+  for (int j = 0; j < kColumns; ++j) {
+    x[j] = Eigen::Map<const Column<kRows>>(X + j * stride_X);
+    for (int k = 0; k < j; ++k) x[j] -= L[j + k * stride_L] * x[k];
+    x[j] *= inverse_diagonal[j];
+    Eigen::Map<Column<kRows>>(X + j * stride_X) = x[j];
+  }
+}
+
+/// Cholesky factorisation of a diagonal tile.
+template <int kColumns>
+bool FactorizeTile(double* L, Index stride, double* inverse_diagonal) {
+  for (int j = 0; j < kColumns; ++j) {
+    double* const column = L + j * stride;
+    for (int k = 0; k < j; ++k) {
+      for (int i = j; i < kColumns; ++i) column[i] -= L[i + k * stride] * L[j + k * stride];
+    }
+    if (!(column[j] > 0.0)) return false;
+    column[j] = std::sqrt(column[j]);
+    inverse_diagonal[j] = 1.0 / column[j];
+    for (int i = j + 1; i < kColumns; ++i) column[i] *= inverse_diagonal[j];
+  }
+  return true;
+}
+
+/// C = -A B^T or C -= A B^T. @param lower Only tiles that touch the lower triangle.
+template <Write kWrite>
+void Product(bool lower, Index rows, Index columns, Index depth, const double* A, Index stride_A,
+             const double* B, Index stride_B, double* C, Index stride_C) {
+  ForColumnTiles(columns, [&](Index column, auto num_columns) {
+    ForRowTiles(lower ? column : 0, rows, [&](Index row, auto num_rows) {
+      Tile<num_rows, num_columns, kWrite>(depth, A + row, stride_A, B + column, stride_B,
+                                          C + row + column * stride_C, stride_C);
+    });
+  });
+}
+
+/// C = -A B^T, a few columns of A and B at a time, so that they stay in the nearest cache.
+void NegativeProduct(bool lower, Index rows, Index columns, Index depth, const double* A,
+                     Index stride_A, const double* B, Index stride_B, double* C) {
+  Product<Write::kAssign>(lower, rows, columns, std::min(depth, kDepth), A, stride_A, B, stride_B,
+                          C, rows);
+  for (Index k = kDepth; k < depth; k += kDepth) {
+    Product<Write::kSubtract>(lower, rows, columns, std::min(depth - k, kDepth), A + k * stride_A,
+                              stride_A, B + k * stride_B, stride_B, C, rows);
+  }
+}
+
+/// FactorizePanel() of a few columns.
+bool FactorizeNarrowPanel(Index rows, Index columns, double* F, Index stride) {
+  bool positive = true;
+  ForColumnTiles(columns, [&](Index column, auto num_columns) {
+    double* const target = F + column * stride;
+    ForRowTiles(column, rows, [&](Index row, auto num_rows) {
+      Tile<num_rows, num_columns, Write::kSubtract>(column, F + row, stride, F + column, stride,
+                                                    target + row, stride);
+    });
+    double inverse_diagonal[num_columns];
+    positive = positive && FactorizeTile<num_columns>(target + column, stride, inverse_diagonal);
+    if (!positive) return;
+    ForRowTiles(column + num_columns, rows, [&](Index row, auto num_rows) {
+      SolveTile<num_rows, num_columns>(target + column, stride, inverse_diagonal, target + row,
+                                       stride);
+    });
+  });
+  return positive;
+}
+
+/// SolveOnTheRight() of a few columns.
+void SolveNarrow(Index rows, Index columns, const double* L, Index stride_L, double* X) {
+  ForColumnTiles(columns, [&](Index column, auto num_columns) {
+    double inverse_diagonal[num_columns];
+    for (int j = 0; j < num_columns; ++j) {
+      inverse_diagonal[j] = 1.0 / L[(column + j) * (stride_L + 1)];
+    }
+    ForRowTiles(0, rows, [&](Index row, auto num_rows) {
+      double* const target = X + row + column * rows;
+      Tile<num_rows, num_columns, Write::kSubtract>(column, X + row, rows, L + column, stride_L,
+                                                    target, rows);
+      SolveTile<num_rows, num_columns>(L + column * (stride_L + 1), stride_L, inverse_diagonal,
+                                       target, rows);
+    });
+  });
+}
+
+}  // namespace
+
+void NegativeSquare(Index rows, Index depth, const double* A, Index stride_A, double* C) {
+  NegativeProduct(true, rows, rows, depth, A, stride_A, A, stride_A, C);
+}
+
+void NegativeProduct(Index rows, Index columns, Index depth, const double* A, Index stride_A,
+                     const double* B, Index stride_B, double* C) {
+  NegativeProduct(false, rows, columns, depth, A, stride_A, B, stride_B, C);
+}
+
+bool FactorizePanel(Index rows, Index columns, double* F) {
+  for (Index k = 0; k < columns; k += kDepth) {
+    const Index width = std::min(columns - k, kDepth);
+    if (!FactorizeNarrowPanel(rows - k, width, F + k * (rows + 1), rows)) return false;
+    const Index next = k + width;
+    const double* const done = F + next + k * rows;
+    Product<Write::kSubtract>(true, rows - next, columns - next, width, done, rows, done, rows,
+                              F + next * (rows + 1), rows);
+  }
+  return true;
+}
+
+void SolveOnTheRight(Index rows, Index columns, const double* L, Index stride_L, double* X) {
+  for (Index k = 0; k < columns; k += kDepth) {
+    const Index width = std::min(columns - k, kDepth);
+    SolveNarrow(rows, width, L + k * (stride_L + 1), stride_L, X + k * rows);
+    const Index next = k + width;
+    Product<Write::kSubtract>(false, rows, columns - next, width, X + k * rows, rows,
+                              L + next + k * stride_L, stride_L, X + next * rows, rows);
+  }
+}
+
+}  // namespace vacuum_gripper_sim

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <Eigen/Core>
+
+namespace vacuum_gripper_sim {
+
+/** Dense kernels for the small fronts of SparseCholesky: matrices of some ten to some hundred rows,
+ 3 n columns, column-major in cache. There, Eigen's kernels for large matrices spend much of their
+ time on packing; these read the operands where they are, a tile of the result in registers. */
+
+/// C = -A A^T, lower triangle. Above the diagonal C is scratch.
+/// @param A #rows by depth. @param C #rows square, no padding; #rows a multiple of 3.
+void NegativeSquare(Eigen::Index rows, Eigen::Index depth, const double* A, Eigen::Index stride_A,
+                    double* C);
+
+/// C = -A B^T. @param A #rows by depth. @param B #columns by depth. @param C #rows by #columns, no
+/// padding; #columns a multiple of 3.
+void NegativeProduct(Eigen::Index rows, Eigen::Index columns, Eigen::Index depth, const double* A,
+                     Eigen::Index stride_A, const double* B, Eigen::Index stride_B, double* C);
+
+/// Cholesky factorisation of a panel's first columns: F = (L_11; L_21) from (A_11; A_21).
+/// @param[in,out] F #rows by #columns, no padding; #columns a multiple of 3. What is above the
+/// diagonal is scratch. @returns false if A_11 is not positive definite.
+bool FactorizePanel(Eigen::Index rows, Eigen::Index columns, double* F);
+
+/// X = X L^-T. @param[in,out] X #rows by #columns, no padding; #columns a multiple of 3.
+/// @param L Lower triangle, #columns square.
+void SolveOnTheRight(Eigen::Index rows, Eigen::Index columns, const double* L,
+                     Eigen::Index stride_L, double* X);
+
+}  // namespace vacuum_gripper_sim
