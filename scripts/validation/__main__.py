@@ -63,15 +63,18 @@ def main():
         return 0
     parts = [part for name, part in PARTS.items() if name in (arguments.only or PARTS)]
     jobs = [job for part in parts for job in part.jobs(arguments.quick)]
-    for mesh in sorted({job.mesh for job in jobs if isinstance(job, Grip)}):
-        meshes.generate(mesh)
     runner = Runner()
     signal.signal(signal.SIGTERM, lambda *_: sys.exit(143))
     try:
+        for mesh in sorted({job.mesh for job in jobs if isinstance(job, Grip)}):
+            meshes.generate(mesh)
         records = runner.perform(jobs, arguments.jobs, arguments.fresh, Progress())
     except KeyboardInterrupt:
         print('\nvalidate: interrupted; what is finished is kept', file=sys.stderr)
         return 130
+    except RuntimeError as error:
+        print(f'validate: {error}', file=sys.stderr)
+        return 1
     results = Results(runner, records)
     sections = [part.evaluate(results, arguments.quick) for part in parts]
     failed = results.failed()

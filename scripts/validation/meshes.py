@@ -32,7 +32,10 @@ def path(name):
 
 
 def generate(name):
-    """Makes the mesh's file unless it is there and made of the same profile."""
+    """Makes the mesh's file unless it is there and made of the same profile.
+
+    Raises RuntimeError if gmsh cannot.
+    """
     file, mesh = path(name), CATALOGUE[name]
     if file.parent != MESHES:
         return
@@ -42,6 +45,10 @@ def generate(name):
     if file.exists() and stamp.exists() and stamp.read_text() == made_of:
         return
     MESHES.mkdir(parents=True, exist_ok=True)
-    subprocess.run([GENERATOR, profile, '--order', str(mesh.order), '-o', file], check=True,
-                   stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL)
+    result = subprocess.run([GENERATOR, profile, '--order', str(mesh.order), '-o', file],
+                            stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+                            stderr=subprocess.STDOUT, universal_newlines=True)
+    if result.returncode != 0:
+        lines = result.stdout.strip().splitlines() or ['no reason given']
+        raise RuntimeError(f'{file.name} cannot be made of {profile.name}: {lines[-1]}')
     stamp.write_text(made_of)
