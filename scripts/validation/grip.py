@@ -13,6 +13,8 @@ START = 0.0202          # the mount's first height [m]
 PRESS_SPEED = 0.01      # [m/s]
 RAMP_RATE = 1e5         # of the regulator [Pa/s]
 SETTLING_TIME = 0.2     # forces are then within 1e-5 of those at rest [s]
+STOP_AFTER_LOSS = 0.1   # time in which a flicker of the seal would show [s]
+TYPICAL_LIFT = 0.006    # at loss; for estimates of time only [m]
 SEAL_GAP = 1e-4         # default of seal.close_gap and seal.open_gap [m]
 
 
@@ -25,7 +27,7 @@ class Grip:
     pressure: float = -6000.0       # [Pa], gauge
     press: float = 0.001            # how far the mount goes down from where the lip touches [m]
     speed: Optional[float] = 0.005  # of the pull [m/s]; None: held where it is
-    lift: float = 0.009             # end of the pull, from where the lip touches [m]
+    lift: float = 0.012             # where the pull ends at the latest, from where the lip touches [m]
     time_step: float = 0.01         # [s]
     damping: float = 0.002          # of the stiffness [s]
     seal_factor: float = 1.0        # on the default gaps of the seal
@@ -91,6 +93,7 @@ class Grip:
             'cup.damping.stiffness': f'{self.damping:.9f}',
             'time_step': f'{self.time_step:.9f}',
             'timeline': f'[{frames}]',
+            'stop_after_loss': STOP_AFTER_LOSS,
         }
         if self.material != 'corotational':
             settings['cup.material'] = self.material
@@ -118,4 +121,5 @@ class Grip:
     @property
     def cost(self):
         """Rough duration [s]."""
-        return meshes.CATALOGUE[self.mesh].seconds * self.end / self.time_step
+        end = min(self.end, self.pull_at + TYPICAL_LIFT / self.speed) if self.speed else self.end
+        return meshes.CATALOGUE[self.mesh].seconds * end / self.time_step

@@ -3,6 +3,8 @@
 import matplotlib
 matplotlib.use('Agg')
 import matplotlib.pyplot as plt  # noqa: E402 (the backend comes first)
+from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator  # noqa: E402
+from matplotlib.patheffects import withStroke  # noqa: E402
 
 from .paths import RESULTS  # noqa: E402
 
@@ -35,16 +37,25 @@ plt.rcParams.update({
 })
 
 
-def shades(count, name='viridis'):
-    """Colours for an ordered quantity, from light to dark."""
-    palette = plt.get_cmap(name)
-    return [palette(0.82 * (1.0 - i / max(1, count - 1))) for i in range(count)]
+def vacuum_color(pressure):
+    """Of a gauge pressure [Pa], the same in all figures: from light at -2 kPa to dark at -12."""
+    return plt.get_cmap('viridis')(0.75 * min(1.0, max(0.0, (12e3 + pressure) / 10e3)))
 
 
 def label(axis, x, y, text, color, dx=4, dy=0, **options):
     """Text beside a point, instead of a legend."""
     axis.annotate(text, (x, y), xytext=(dx, dy), textcoords='offset points', color=color,
-                  va=options.pop('va', 'center'), fontsize=options.pop('fontsize', 8.5), **options)
+                  va='center', fontsize=8.5,
+                  path_effects=[withStroke(linewidth=2.5, foreground='white')], **options)
+
+
+def log_ticks(axis, ticks):
+    """A logarithmic axis (axes.xaxis or axes.yaxis) with plain numbers at the ticks."""
+    set_scale = axis.axes.set_xscale if axis.axis_name == 'x' else axis.axes.set_yscale
+    set_scale('log')
+    axis.set_major_locator(FixedLocator(list(ticks)))
+    axis.set_major_formatter(FuncFormatter(lambda value, _: f'{value:g}'))
+    axis.set_minor_locator(NullLocator())
 
 
 def legend_below(figure, handles, labels, columns):

@@ -6,20 +6,23 @@ from .. import style
 from ..grip import Grip
 from ..meshes import CATALOGUE
 from ..reference_data import force_at
-from ..report_items import Figure, Section, Table
+from ..report_items import Figure, Section, Table, check_relative
 
 NAME = 'convergence'
 MATERIALS = ('corotational', 'neo_hookean')
 MESHES = ('linear_700', 'linear_3000', 'linear_10000', 'linear_30000',
           'quadratic_700', 'quadratic_1500', 'quadratic_3000', 'quadratic_6000')
-QUICK_MESHES = ('linear_700', 'linear_3000', 'linear_10000', 'quadratic_700', 'quadratic_1500')
+QUICK_MESHES = ('linear_700', 'linear_3000', 'linear_10000',
+                'quadratic_700', 'quadratic_1500', 'quadratic_3000')
 TIME_STEPS = (0.001, 0.002, 0.005, 0.01, 0.02)
 QUICK_TIME_STEPS = (0.002, 0.005, 0.01, 0.02)
 DAMPINGS = (0.0005, 0.001, 0.002, 0.004, 0.008)
 QUICK_DAMPINGS = (0.0005, 0.002, 0.008)
+ELEMENT_TICKS = (700, 1500, 3000, 6000, 10000, 30000)
 LARGE = 0.2     # [s] a step; larger time steps save the time of such meshes
 COLORS = {'corotational': style.BLUE, 'neo_hookean': style.VERMILION}
-QUANTITIES = (('press', 'force pressed by 1 mm [N]', lambda s: s.press_force),
+SETTLED_TOLERANCE = 0.1  # change of forces at rest with the time step [%]
+QUANTITIES = (('press', 'force that presses it by 1 mm [N]', lambda s: -s.press_force),
               ('hold', 'force held at -6 kPa [N]', lambda s: s.hold_force),
               ('lift', 'lift at loss [mm]', lambda s: 1e3 * s.lift_at_loss),
               ('peak', 'largest force [N]', lambda s: s.peak_force))
@@ -44,9 +47,16 @@ def damping_grips(material, quick):
             for damping in (QUICK_DAMPINGS if quick else DAMPINGS)]
 
 
+def settings_materials(quick):
+    """Materials whose time step and damping are studied."""
+    return MATERIALS[:1] if quick else MATERIALS
+
+
 def jobs(quick):
-    return [grip for material in MATERIALS for study in (mesh_grips, step_grips, damping_grips)
-            for grip in study(material, quick)]
+    grips = [grip for material in MATERIALS for grip in mesh_grips(material, quick)]
+    for material in settings_materials(quick):
+        grips += step_grips(material, quick) + damping_grips(material, quick)
+    return grips
 
 
 def found(results, grips):
@@ -58,7 +68,7 @@ def found(results, grips):
 def references():
     """(lowest, highest) of the converged solutions, of quantities that have one."""
     names = ('a20_hold_svk.csv', 'a20_hold_neohooke.csv')
-    return {'press': sorted(force_at(name, -0.001, 0.0) for name in names),
+    return {'press': sorted(-force_at(name, -0.001, 0.0) for name in names),
             'hold': sorted(force_at(name, -0.001, -6000.0) for name in names)}
 
 
@@ -76,8 +86,8 @@ def draw_meshes(results, quick):
                 axis.plot(*zip(*points) if points else ((), ()), color=color, marker=marker,
                           markerfacecolor=fill, linestyle='-' if order == 2 else (0, (4, 2)),
                           label=f'{material}, {"quadratic" if order == 2 else "linear"}')
-        axis.set_xscale('log')
         axis.set_title(text, loc='left')
+        style.log_ticks(axis.xaxis, ELEMENT_TICKS)
     for axis in axes[-1]:
         axis.set_xlabel('number of elements')
     handles, labels = axes[0, 0].get_legend_handles_labels()
@@ -91,35 +101,54 @@ def draw_settings(results, quick):
     """Changes in percent of the default's value over time step and damping."""
     figure, axes = plt.subplots(1, 2, figsize=(style.WIDTH, 3.7), sharey=True,
                                 constrained_layout=True)
-    colors = (style.BLACK, style.BLUE, style.VERMILION, style.GREEN)
-    for axis, study, x in ((axes[0], step_grips, lambda g: 1e3 * g.time_step),
-                           (axes[1], damping_grips, lambda g: 1e3 * g.damping)):
-        runs = found(results, study('corotational', quick))
-        default = results.series(Grip())
-        for (key, _, value), color in zip(QUANTITIES, colors):
-            if default is None or not runs:
+    looks = ((style.BLACK, 's', 8), (style.BLUE, 'o', 4), (style.VERMILION, '^', 5),
+             (style.GREEN, 'D', 4))
+    names = ('force pressed', 'force held', 'lift at loss', 'largest force')
+    for axis, study, x, unit in (
+            (axes[0], step_grips, lambda g: 1e3 * g.time_step, 'time step [ms]'),
+            (axes[1], damping_grips, lambda g: 1e3 * g.damping, 'stiffness damping [ms]')):
+        for material in settings_materials(quick):
+            runs, default = found(results, study(material, quick)), \
+                results.series(Grip(material=material))
+            if default is None:
                 continue
-            y = [100.0 * (value(series) / value(default) - 1.0) for _, series in runs]
-            axis.plot([x(grip) for grip, _ in runs], y, color=color, marker='o', label=key)
-        axis.set_xscale('log')
-        ticks = [x(grip) for grip in study('corotational', quick)]
-        axis.set_xticks(ticks)
-        axis.set_xticklabels([f'{tick:g}' for tick in ticks])
-        axis.minorticks_off()
-    axes[0].set_xlabel('time step [ms]')
-    axes[1].set_xlabel('stiffness damping [ms]')
+            main = material == MATERIALS[0]
+            for (_, _, value), (color, marker, size), name in zip(QUANTITIES, looks, names):
+                axis.plot([x(grip) for grip, _ in runs],
+                          [100.0 * (value(series) / value(default) - 1.0) for _, series in runs],
+                          color=color, marker=marker, markersize=size,
+                          markerfacecolor='white' if size == 8 or not main else color,
+                          linestyle='-' if main else (0, (4, 2)),
+                          label=name if main else None)
+        style.log_ticks(axis.xaxis, [x(grip) for grip in study(MATERIALS[0], quick)])
+        axis.set_xlabel(unit)
     axes[0].set_ylabel('change from the default [%]')
-    handles, _ = axes[0].get_legend_handles_labels()
-    figure.legend(handles, ['force pressed', 'force held', 'lift at loss', 'largest force'],
-                  loc='outside lower center', ncol=4)
+    style.legend_below(figure, *axes[0].get_legend_handles_labels(), columns=4)
     style.save(figure, 'convergence_settings')
+
+
+def settled_checks(results, quick):
+    """Forces at rest must not depend on the time step."""
+    checks = []
+    for material in settings_materials(quick):
+        default = results.series(Grip(material=material))
+        for grip, series in found(results, step_grips(material, quick)):
+            if default is None or grip == default.grip:
+                continue
+            checks += [check_relative(NAME, f'{material}, time step {1e3 * grip.time_step:g} ms: '
+                                      f'force {name}', value(series), value(default),
+                                      SETTLED_TOLERANCE, 'N')
+                       for name, (_, _, value) in zip(('pressed', 'held'), QUANTITIES)]
+    return checks
 
 
 def evaluate(results, quick):
     section = Section(NAME, 'Convergence', [
         'A20, pressed by 1 mm, held at -6 kPa, pulled at 5 mm/s. Over meshes of both orders and '
         'both materials; over the time step and over the stiffness damping with the default cup. '
-        'Meshes whose steps are long run at 20 ms instead of 10.'])
+        'Meshes whose steps are long run at 20 ms instead of 10. Forces at rest must not depend on '
+        f'the time step: by {SETTLED_TOLERANCE:g} % at most.'],
+        checks=settled_checks(results, quick))
     rows = [(grip.material, grip.mesh, results.num_elements(grip), 1e3 * grip.time_step,
              1e3 * grip.damping, *(value(series) for _, _, value in QUANTITIES),
              series.seal_flips, series.undone_steps)
@@ -135,6 +164,6 @@ def evaluate(results, quick):
         section.figures += [
             Figure('convergence_mesh', 'Over the mesh. Filled: quadratic, open: linear elements; '
                    'grey: between the two materials of CalculiX.'),
-            Figure('convergence_settings', 'Over time step and damping: quadratic_700, '
-                   'corotational.')]
+            Figure('convergence_settings', 'Over time step and damping, quadratic_700. Full lines: '
+                   'corotational, dashed: neo_hookean.')]
     return section

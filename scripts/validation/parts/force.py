@@ -1,8 +1,6 @@
 """(b) Pulled at 5 mm/s until the cup lets go: the force over time, as in Fig. 8 of the paper."""
 
 import matplotlib.pyplot as plt
-import numpy as np
-
 from .. import style
 from ..grip import Grip
 from ..reference_data import uplift
@@ -30,7 +28,8 @@ def draw_over_time(all_series):
     figure, axes = plt.subplots(1, 2, sharey=True, figsize=(style.WIDTH, 3.9),
                                 constrained_layout=True)
     for axis, cup in zip(axes, PRESSURES):
-        for grip, color in zip(grips(cup), style.shades(len(PRESSURES[cup]))):
+        for grip in grips(cup):
+            color = style.vacuum_color(grip.pressure)
             series = all_series.get(grip)
             if series is None:
                 continue
@@ -38,21 +37,20 @@ def draw_over_time(all_series):
             lost = time[series.holds][-1] if series.holds.any() else time[-1]
             shown = time <= lost + 0.1
             axis.plot(time[shown], series.force[shown], color=color)
-            peak = np.flatnonzero(series.pulled)[series.force[series.pulled].argmax()]
-            style.label(axis, time[peak], series.force[peak], f'{1e-3 * grip.pressure:g} kPa',
-                        color, dx=2, dy=8, ha='center')
+            style.label(axis, -0.32, series.hold_force, f'{1e-3 * grip.pressure:g} kPa', color,
+                        dx=0, ha='right')
         axis.axvline(0.0, color=style.GREY, linewidth=0.7, linestyle=':')
         axis.axhline(0.0, color=style.GREY, linewidth=0.7)
         axis.set_title(f'{cup.upper()}, pulled at 5 mm/s', loc='left')
         axis.set_xlabel('time since the pull began [s]')
-        axis.margins(y=0.12)
     axes[0].set_ylabel('force on the mount [N]')
     style.save(figure, 'force_over_time')
 
 
 def draw_over_lift(all_series):
-    figure, axis = plt.subplots(figsize=(0.8 * style.WIDTH, 4.2), constrained_layout=True)
-    for grip, color in zip(grips('a20'), style.shades(len(PRESSURES['a20']))):
+    figure, axis = plt.subplots(figsize=(0.85 * style.WIDTH, 4.4), constrained_layout=True)
+    for grip in grips('a20'):
+        color = style.vacuum_color(grip.pressure)
         series = all_series.get(grip)
         if series is None:
             continue
@@ -63,7 +61,7 @@ def draw_over_lift(all_series):
         lift, force = uplift(name, pressure)
         axis.plot(1e3 * lift, force, marker, color=color, markerfacecolor='white', label=text)
     axis.plot([], [], color=style.GREY, label='simulation, pulled at 5 mm/s')
-    axis.legend(loc='upper left')
+    style.legend_below(figure, *axis.get_legend_handles_labels(), columns=3)
     axis.set_xlabel('lift of the mount, from where the lip touches [mm]')
     axis.set_ylabel('force on the mount [N]')
     axis.margins(x=0.09)
@@ -82,7 +80,7 @@ def evaluate(results, _quick):
             continue
         all_series[grip] = series
         section.checks += seal_checks(NAME, grip, series)
-        rows.append((grip.cup.upper(), 1e-3 * grip.pressure, series.press_force, series.hold_force,
+        rows.append((grip.cup.upper(), 1e-3 * grip.pressure, -series.press_force, series.hold_force,
                      series.peak_force, 1e3 * series.lift_at_loss, series.seal_flips,
                      series.undone_steps, series.max_penetration))
     section.tables.append(Table('force', 'What the pulls gave', [

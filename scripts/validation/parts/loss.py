@@ -42,7 +42,8 @@ def evaluate(results, quick):
     rows = []
     figure, axes = plt.subplots(2, 3, figsize=(style.WIDTH, 5.4), sharey='row', sharex='col',
                                 constrained_layout=True)
-    for pressure, color in zip(PRESSURES, style.shades(len(PRESSURES))):
+    for pressure in PRESSURES:
+        color = style.vacuum_color(pressure)
         for column, (key, _, values, text) in enumerate(STUDIES):
             points = []
             for position, value in enumerate(values):
