@@ -9,13 +9,14 @@ import time
 from . import csv_files, meshes, report
 from .grip import Grip
 from .origin import origin
-from .parts import convergence, cost, force, geometry, loss, reference, seal, sweep
+from .parts import (convergence, cost, force, geometry, loss, reference, seal, sweep,
+                    wrinkles)
 from .progress import Progress
 from .results import Results
 from .runner import Runner
 
 PARTS = {part.NAME: part for part in (reference, geometry, force, sweep, convergence, cost, seal,
-                                      loss)}
+                                      loss, wrinkles)}
 
 
 def count(text):
@@ -69,6 +70,10 @@ def main():
         for mesh in sorted({job.mesh for job in jobs if isinstance(job, Grip)}):
             meshes.generate(mesh)
         records = runner.perform(jobs, arguments.jobs, arguments.fresh, Progress())
+        later = [job for part in parts if hasattr(part, 'followups')
+                 for job in part.followups(Results(runner, records), arguments.quick)]
+        if later:
+            records.update(runner.perform(later, arguments.jobs, arguments.fresh, Progress()))
     except KeyboardInterrupt:
         print('\nvalidate: interrupted; what is finished is kept', file=sys.stderr)
         return 130

@@ -20,14 +20,15 @@ SEAL_GAP = 1e-4         # default of seal.close_gap and seal.open_gap [m]
 
 @dataclasses.dataclass(frozen=True)
 class Grip:
-    """Equal grips are one run, whatever part asks for them."""
+    """Equal grips are one run, whatever part asks for them. Lifts are those of the mount from where
+    the lip of the undeformed cup touches the plate."""
     cup: str = 'a20'
     mesh: str = 'quadratic_700'
     material: str = 'corotational'
     pressure: float = -6000.0       # [Pa], gauge
     press: float = 0.001            # how far the mount goes down from where the lip touches [m]
     speed: Optional[float] = 0.005  # of the pull [m/s]; None: held where it is
-    lift: float = 0.012             # where the pull ends at the latest, from where the lip touches [m]
+    lift: float = 0.012             # of the mount where the pull ends at the latest [m]
     time_step: float = 0.01         # [s]
     damping: float = 0.002          # of the stiffness [s]
     seal_factor: float = 1.0        # on the default gaps of the seal
@@ -37,7 +38,8 @@ class Grip:
     @property
     def id(self):
         """The folder's name: what the run is, and what differs from the default."""
-        words = [self.cup, self.mesh, f'{1e-3 * self.pressure:g}kPa', f'press{1e3 * self.press:g}mm']
+        words = [self.cup, self.mesh, f'{1e-3 * self.pressure:g}kPa',
+                 f'press{1e3 * self.press:g}mm']
         words.append('held' if self.speed is None else f'pull{1e3 * self.speed:g}mms')
         words.append(f'h{1e3 * self.time_step:g}ms')
         default = Grip()

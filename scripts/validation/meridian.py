@@ -45,6 +45,17 @@ def face_grid(points, faces, divisions):
             for i in range(divisions + 1) for j in range(divisions + 1 - i)}
 
 
+def sub_triangles(grid, divisions):
+    """The small triangles of a face_grid(), as seen from the side of their faces; # by 3 by 3."""
+    triangles = []
+    for i in range(divisions):
+        for j in range(divisions - i):
+            triangles.append((grid[i, j], grid[i + 1, j], grid[i, j + 1]))
+            if i + j + 2 <= divisions:
+                triangles.append((grid[i + 1, j], grid[i + 1, j + 1], grid[i, j + 1]))
+    return np.stack([np.vstack(corners) for corners in zip(*triangles)], axis=1)
+
+
 def meridian(points, faces, divisions=DIVISIONS):
     """The whole boundary as a grid of lines, turned about the axis x = y = 0 into one half plane.
 
@@ -63,14 +74,7 @@ def meridian(points, faces, divisions=DIVISIONS):
 
 def section(points, faces, divisions=8):
     """Where the plane y = 0 cuts the boundary: segments, # by 2 by (x, z). [m]"""
-    grid = face_grid(points, faces, divisions)
-    triangles = []
-    for i in range(divisions):
-        for j in range(divisions - i):
-            triangles.append((grid[i, j], grid[i + 1, j], grid[i, j + 1]))
-            if i + j + 2 <= divisions:
-                triangles.append((grid[i + 1, j], grid[i + 1, j + 1], grid[i, j + 1]))
-    corners = np.stack([np.vstack(c) for c in zip(*triangles)], axis=1)
+    corners = sub_triangles(face_grid(points, faces, divisions), divisions)
     # A node on the plane counts as on one side of it: a triangle is cut in two edges or in none.
     side = corners[:, :, 1] >= 0.0
     cut = corners[side.any(axis=1) & ~side.all(axis=1)]

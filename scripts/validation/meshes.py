@@ -1,4 +1,4 @@
-"""The meshes of the studies: those of meshes/, and others that are generated when they are needed."""
+"""The meshes of the studies: those of meshes/, and others, generated when they are needed."""
 
 import subprocess
 from collections import namedtuple

@@ -65,7 +65,8 @@ def table_html(table):
     source = f' <a class="origin" href="{table.name}.csv">{table.name}.csv</a>'
     title = html.escape(table.title)
     if len(table.rows) > LONG:
-        return f'<details><summary>{title} ({len(table.rows)} rows){source}</summary>{block}</details>'
+        return (f'<details><summary>{title} ({len(table.rows)} rows){source}</summary>{block}'
+                '</details>')
     return f'<h3>{title}{source}</h3>\n{block}'
 
 

@@ -14,12 +14,16 @@ import numpy as np
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent.parent / 'scripts'))
 from validation.grip import Grip  # noqa: E402 (the path comes first)
 from validation.meridian import boundary_faces, hausdorff, meridian, section  # noqa: E402
-from validation.parts import convergence, cost, force, geometry, loss, seal, sweep  # noqa: E402
+from validation.parts import (convergence, cost, force, geometry, loss, seal,  # noqa: E402
+                              sweep, wrinkles)
 from validation.parts.reference import parse_line  # noqa: E402
 from validation.progress import Progress  # noqa: E402
 from validation.report_items import check_relative, check_small  # noqa: E402
 from validation.runner import Runner  # noqa: E402
 from validation.series import Series  # noqa: E402
+
+
+PARTS = (geometry, force, sweep, convergence, cost, seal, loss, wrinkles)
 
 
 class ReferenceLineTest(unittest.TestCase):
@@ -34,8 +38,8 @@ class ReferenceLineTest(unittest.TestCase):
         self.assertEqual((check.error, check.tolerance, check.passed), (-5.3414, 5.0, False))
 
     def test_absolute_error_and_exponent(self):
-        check = parse_line('disc linear, 50 Pa: max w [m]    9.16778e-05, reference 9.17e-05, error '
-                           '+0.0000, tolerance 1e-05, PASS')
+        check = parse_line('disc linear, 50 Pa: max w [m]    9.16778e-05, reference 9.17e-05, '
+                           'error +0.0000, tolerance 1e-05, PASS')
         self.assertEqual((check.value, check.error, check.tolerance), (9.16778e-05, 0.0, 1e-5))
         self.assertEqual(check.error_unit, 'm')
         self.assertTrue(check.passed)
@@ -200,12 +204,12 @@ class RunnerTest(unittest.TestCase):
 
 class GripTest(unittest.TestCase):
     def test_every_run_has_a_folder_of_its_own(self):
-        grips = {grip for part in (geometry, force, sweep, convergence, cost, seal, loss)
+        grips = {grip for part in PARTS
                  for quick in (False, True) for grip in part.jobs(quick)}
         self.assertEqual(len({grip.id for grip in grips}), len(grips))
 
     def test_the_quick_run_asks_for_nothing_new(self):
-        for part in (geometry, force, sweep, convergence, cost, seal, loss):
+        for part in PARTS:
             self.assertLessEqual(set(part.jobs(True)), set(part.jobs(False)), part.NAME)
 
     def test_times_ascend_and_the_pull_has_its_speed(self):

@@ -29,11 +29,16 @@ def profile_name(grip):
     return f'{grip.cup}_profile_press{1e3 * grip.press:g}mm_{-1e-3 * grip.pressure:g}kPa.csv'
 
 
+def describe(grip):
+    return (f'{grip.cup.upper()}, {1e-3 * grip.pressure:g} kPa, pressed by '
+            f'{1e3 * grip.press:g} mm')
+
+
 class Shape:
     """The boundary of one run against its profile. [mm]"""
 
     def __init__(self, file, grip):
-        points, tetrahedra, displacement = read_vtu(file)
+        points, tetrahedra, _ = read_vtu(file)
         faces = boundary_faces(tetrahedra)
         curve, self.rest = (1e3 * array for array in profile(profile_name(grip)))
         begins, ends = meridian(points, faces)
@@ -41,7 +46,6 @@ class Shape:
         self.distance, self.where, self.curve = 1e3 * distance, 1e3 * where, curve
         self.to_shape *= 1e3
         self.section = 1e3 * section(points, faces)
-        self.lowest_rest = (points - displacement)[:, 2].min()
 
 
 def both_sides(curve):
@@ -56,8 +60,7 @@ def draw(axis, shape, grip):
         axis.plot(*segment.T, color=style.VERMILION, linewidth=1.2, solid_capstyle='round')
     axis.axhline(0.0, color=style.BLACK, linewidth=0.8)
     axis.plot(*shape.where, 'o', markerfacecolor='none', markeredgecolor=style.BLUE, markersize=9)
-    axis.set_title(f'{grip.cup.upper()}, {1e-3 * grip.pressure:g} kPa, pressed by '
-                   f'{1e3 * grip.press:g} mm\nHausdorff distance {shape.distance:.2f} mm', loc='left')
+    axis.set_title(f'{describe(grip)}\nHausdorff distance {shape.distance:.2f} mm', loc='left')
     axis.set_aspect('equal')
     axis.set_ylim(-1.0, 21.0)
 
@@ -93,8 +96,7 @@ def evaluate(results, _quick):
         'simulation and a real cup, of another shape: a different comparison, named for scale.'])
     rows = []
     for grip, shape in shapes.items():
-        name = f'{grip.cup.upper()}, {1e-3 * grip.pressure:g} kPa, pressed by {1e3 * grip.press:g} mm'
-        check = check_small(NAME, f'{name}: Hausdorff distance', shape.distance, TOLERANCE, 'mm')
+        check = check_small(NAME, f'{describe(grip)}: Hausdorff distance', shape.distance, TOLERANCE, 'mm')
         section_.checks.append(check)
         rows.append((grip.cup.upper(), 1e-3 * grip.pressure, 1e3 * grip.press, shape.distance,
                      shape.to_shape, *shape.where, TOLERANCE, PAPER[grip.cup],
