@@ -1,6 +1,8 @@
 #include "vacuum_gripper_sim/config/experiment.h"
 
+#include <algorithm>
 #include <exception>
+#include <limits>
 
 #include "vacuum_gripper_sim/core/gmsh_reader.h"
 
@@ -19,8 +21,10 @@ ExperimentOutcome RunExperiment(const Scenario& scenario, Simulator* simulator,
   SummaryAccumulator accumulator(CommandAt(scenario.timeline, 0.0).X_WM, h);
   ExperimentOutcome outcome;
   int undone_in_a_row = 0;
+  double end = std::numeric_limits<double>::infinity();
+  bool over = false;
   const int num_steps = scenario.num_steps();
-  for (int step = 1; step <= num_steps && !outcome.stopped_early; ++step) {
+  for (int step = 1; step <= num_steps && !outcome.stopped_early && !over; ++step) {
     const StepResult* result = nullptr;
     try {
       // A command is where the mount shall be at the end of the step.
@@ -33,6 +37,10 @@ ExperimentOutcome RunExperiment(const Scenario& scenario, Simulator* simulator,
     }
     accumulator.Add(*result);
     observer(*result);
+    if (scenario.stop_after_loss && result->status == SealStatus::kLost) {
+      end = std::min(end, result->time + *scenario.stop_after_loss);
+    }
+    over = result->time > end - 0.5 * h;
     if (result->outcome == StepOutcome::kOk) {
       undone_in_a_row = 0;
       continue;

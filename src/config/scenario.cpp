@@ -92,6 +92,7 @@ Scenario ReadDocument(const YAML::Node& root, const Directories& directories,
   parameters.time_step = reader.GetDouble("time_step", parameters.time_step);
   const YAML::Node timeline = reader.GetNode("timeline");
   const YAML::Node duration = reader.GetNode("duration");
+  const YAML::Node stop_after_loss = reader.GetNode("stop_after_loss");
   reader.GetNode("surfaces");
   reader.GetNode("scene");
   reader.CheckNoUnknownKeys();  // first: a typo explains most of what follows
@@ -105,6 +106,13 @@ Scenario ReadDocument(const YAML::Node& root, const Directories& directories,
   CheckSetpoints(scenario, timeline);
   scenario.duration = reader.GetDouble("duration", scenario.timeline.back().time);
   CheckDuration(scenario, duration);
+  if (reader.Has("stop_after_loss")) {
+    scenario.stop_after_loss = reader.GetDouble("stop_after_loss");
+    if (*scenario.stop_after_loss < 0.0) {
+      throw std::invalid_argument("stop_after_loss = " + Describe(stop_after_loss) +
+                                  "; expected 0 or more [s]");
+    }
+  }
   return scenario;
 }
 

@@ -132,6 +132,23 @@ TEST_F(ExperimentTool, RefusesAnOutputDirectoryThatIsAFile) {
   ExpectRefusal("hover.yaml --out taken", "taken");
 }
 
+TEST_F(ExperimentTool, StopsAsLongAfterTheLossAsTheScenarioSays) {
+  directory_.Write("pull.yaml", R"(cup: a20_linear
+stop_after_loss: 0.05
+timeline:
+  - {time: 0.0, position: [0.0, 0.0, 0.02]}
+  - {time: 0.1, position: [0.0, 0.0, 0.019], pressure_setpoint: -2000.0}
+  - {time: 0.3, position: [0.0, 0.0, 0.019]}
+  - {time: 1.3, position: [0.0, 0.0, 0.069]}
+)");
+  ASSERT_EQ(Run("pull.yaml --out out --quiet"), 0) << stderr_;
+  const YAML::Node summary = YAML::LoadFile(directory_.path() + "/out/summary.yaml");
+  const double lost_at = summary["lost_at"].as<double>();
+  EXPECT_LT(lost_at, 1.0);
+  EXPECT_NEAR(summary["simulated_time"].as<double>(), lost_at + 0.05, 1e-9);
+  EXPECT_EQ(summary["seal_flips"].as<int>(), 2);
+}
+
 TEST_F(ExperimentTool, SolverFailureGivesThreeAndStillWrites) {
   directory_.Write("hover.yaml", kHover);
   // One sweep of Gauss-Seidel for a cup driven into the plate never gets to a nanometre.

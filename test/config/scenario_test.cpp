@@ -47,6 +47,7 @@ TEST_F(ScenarioFile, MinimalOneHasDefaults) {
   EXPECT_EQ(scenario.cup.mesh_file, mesh_);
   EXPECT_EQ(scenario.parameters.material.young_modulus, 100000.0);
   EXPECT_EQ(scenario.duration, 1.0);
+  EXPECT_FALSE(scenario.stop_after_loss.has_value());
   EXPECT_EQ(scenario.num_steps(), 100);
   ASSERT_EQ(scenario.surfaces.size(), 1U);
   EXPECT_TRUE(std::holds_alternative<Plane>(scenario.surfaces[0].shape));
@@ -128,6 +129,8 @@ TEST_F(ScenarioFile, RefusalsNameFileAndKey) {
            {"time_step: -0.01", "time_step = -0.01"},
            {"duration: 0.0", "duration = 0.0"},
            {"duration: 1.0e+9", "duration = 1.0e+9"},
+           {"stop_after_loss: -0.1", "stop_after_loss = -0.1"},
+           {"stop_after_loss: soon", "stop_after_loss = soon"},
            {"gravity: [0.0, 0.0]", "gravity = [0.0, 0.0]"},
            {"seal: {close_gap: 0.1}", "seal.open_gap"},
            {"regulator: {min_pressure: -5000.0, default_pressure: -1.0}",

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,8 +17,9 @@ struct Scenario {
   Cup cup;
   SimulatorParameters parameters;  ///< Time step, material and damping included; validated.
   std::vector<RigidSurface> surfaces;
-  double duration{0.0};            ///< [s] > 0
-  std::vector<Keyframe> timeline;  ///< Of the mount, in the world.
+  double duration{0.0};                   ///< [s] > 0
+  std::optional<double> stop_after_loss;  ///< The run ends this long after the loss. [s] >= 0
+  std::vector<Keyframe> timeline;         ///< Of the mount, in the world.
 
   /// Steps of size h that cover the duration.
   int num_steps() const;
@@ -28,8 +30,8 @@ struct Scenario {
 std::string FindScenario(const std::string& name, const std::string& share_directory);
 
 /** Reads a scenario. Its keys are explained in config/experiments/template.yaml: `name`,
- `description`, `cup`, `surfaces` or `scene`, `time_step`, `duration`, `timeline` and those of
- ReadSimulatorParameters(). Without surfaces and scene there is a plane at z = 0.
+ `description`, `cup`, `surfaces` or `scene`, `time_step`, `duration`, `stop_after_loss`, `timeline`
+ and those of ReadSimulatorParameters(). Without surfaces and scene there is a plane at z = 0.
 
  @param path            The YAML file. Relative paths in it (cup, mesh, scene) are relative to it.
  @param overrides       `key.path=value` each, applied in order; see ApplyOverride(). A key below a

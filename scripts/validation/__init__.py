@@ -1,0 +1,1 @@
+"""Runs the experiments of scripts/validate, judges them and writes the report."""
