@@ -83,7 +83,7 @@ def main():
     results = Results(runner, records)
     sections = [part.evaluate(results, arguments.quick) for part in parts]
     failed = results.failed()
-    csv_files.write_all(sections)
+    csv_files.write_all(sections, failed)
     path = report.write(sections, failed,
                         origin(sys.argv[1:], time.monotonic() - begin, arguments.jobs))
     status = print_summary(sections, failed)

@@ -21,9 +21,10 @@ def write(name, columns, rows):
         writer.writerows(rows)
 
 
-def write_all(sections):
-    """A file a table, and checks.csv with every tolerance."""
+def write_all(sections, failed_runs):
+    """A file a table, checks.csv with every tolerance, failed_runs.csv."""
     for section in sections:
         for table in section.tables:
             write(table.name, [name for name, _ in table.columns], table.rows)
+    write('failed_runs', ('run', 'status', 'last_line'), failed_runs)
     write('checks', CHECK_COLUMNS, [check_row(c) for s in sections for c in s.checks])

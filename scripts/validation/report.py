@@ -18,7 +18,7 @@ h2 { font-size: 1.3rem; margin: 3rem 0 .6rem; padding-top: .8rem; border-top: 1p
 h3 { font-size: 1rem; margin: 1.6rem 0 .5rem; }
 p { max-width: 46rem; }
 figure { margin: 1.4rem 0; }
-figure svg { width: 100%; max-width: 54rem; height: auto; }
+figure svg { max-width: 100%; height: auto; }
 figcaption, .origin { color: #555; font-size: .88rem; }
 .table { overflow-x: auto; }
 table { border-collapse: collapse; font-size: .85rem; font-variant-numeric: tabular-nums; }
@@ -26,7 +26,7 @@ th, td { padding: .22rem .7rem; text-align: right; white-space: nowrap; }
 th { border-bottom: 2px solid #777; vertical-align: bottom; white-space: normal;
   font-weight: 600; }
 td { border-bottom: 1px solid #ececec; }
-.text { text-align: left; }
+.text { text-align: left; white-space: normal; }
 .good { color: #00664a; font-weight: 600; }
 .bad { color: #b03a00; font-weight: 600; }
 .verdict { font-size: 1.15rem; padding: .7rem 1rem; border-left: .35rem solid; margin: 1.4rem 0;

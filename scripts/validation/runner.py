@@ -38,7 +38,9 @@ class Runner:
             record = json.loads((self.folder(job) / 'run.json').read_text())
         except (OSError, ValueError):
             return None
-        return record if record.get('fingerprint') == self.fingerprint(job) else None
+        # One that a signal ended says nothing of the job.
+        finished = record.get('status', -1) >= 0
+        return record if finished and record['fingerprint'] == self.fingerprint(job) else None
 
     def run(self, job):
         """Runs one job anew. Returns its record."""

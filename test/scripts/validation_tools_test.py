@@ -186,6 +186,11 @@ class RunnerTest(unittest.TestCase):
         self.perform()
         self.assertEqual(self.runs(), 2)
 
+    def test_a_run_that_was_killed_is_repeated(self):
+        for count in (1, 2):
+            self.perform(dataclasses.replace(self.job, status='$(kill -9 $$)'))
+            self.assertEqual(self.runs(), count)
+
     def test_fresh_repeats(self):
         self.perform()
         self.perform(fresh=True)

@@ -2,6 +2,7 @@
 
 import matplotlib.pyplot as plt
 import numpy as np
+from matplotlib.collections import LineCollection
 
 from .. import style
 from ..grip import Grip
@@ -56,8 +57,8 @@ def both_sides(curve):
 def draw(axis, shape, grip):
     axis.fill(*both_sides(shape.curve).T, color='0.80', linewidth=0)
     axis.plot(*both_sides(shape.rest).T, color=style.GREY, linewidth=0.6, linestyle=(0, (4, 3)))
-    for segment in shape.section:
-        axis.plot(*segment.T, color=style.VERMILION, linewidth=1.2, solid_capstyle='round')
+    axis.add_collection(LineCollection(shape.section, colors=style.VERMILION, linewidths=1.2,
+                                       capstyle='round'))
     axis.axhline(0.0, color=style.BLACK, linewidth=0.8)
     axis.plot(*shape.where, 'o', markerfacecolor='none', markeredgecolor=style.BLUE, markersize=9)
     axis.set_title(f'{describe(grip)}\nHausdorff distance {shape.distance:.2f} mm', loc='left')
@@ -96,7 +97,8 @@ def evaluate(results, _quick):
         'simulation and a real cup, of another shape: a different comparison, named for scale.'])
     rows = []
     for grip, shape in shapes.items():
-        check = check_small(NAME, f'{describe(grip)}: Hausdorff distance', shape.distance, TOLERANCE, 'mm')
+        check = check_small(NAME, f'{describe(grip)}: Hausdorff distance', shape.distance,
+                            TOLERANCE, 'mm')
         section_.checks.append(check)
         rows.append((grip.cup.upper(), 1e-3 * grip.pressure, 1e3 * grip.press, shape.distance,
                      shape.to_shape, *shape.where, TOLERANCE, PAPER[grip.cup],

@@ -42,8 +42,7 @@ def evaluate(results, quick):
     rows = []
     figure, axes = plt.subplots(2, 3, figsize=(style.WIDTH, 5.4), sharey='row', sharex='col',
                                 constrained_layout=True)
-    for pressure in PRESSURES:
-        color = style.vacuum_color(pressure)
+    for pressure, color in zip(PRESSURES, (style.BLUE, style.VERMILION, style.BLACK)):
         for column, (key, _, values, text) in enumerate(STUDIES):
             points = []
             for position, value in enumerate(values):
@@ -67,7 +66,7 @@ def evaluate(results, quick):
     axes[0, 0].set_ylabel('lift at loss [mm]')
     axes[1, 0].set_ylabel('largest force [N]')
     for axis in axes[:, 0]:
-        axis.margins(y=0.15)
+        axis.set_ylim(bottom=0.0)
     style.legend_below(figure, *axes[0, 0].get_legend_handles_labels(), columns=3)
     style.save(figure, 'loss')
     section.tables.append(Table('loss', 'Every run of the study', [

@@ -75,7 +75,8 @@ def evaluate(results, quick):
             text = (results.folder(job) / 'output.log').read_text(encoding='utf-8')
             values = [check for check in map(parse_line, text.splitlines()) if check]
             # A test that says nothing proves nothing.
-            checks += values or [Check(NAME, f'{job.test}: values printed', 0, '>= 1', -1, 0, False)]
+            checks += values or [Check(NAME, f'{job.test}: values printed', 0, '>= 1', -1, 0,
+                                       False)]
     rows = [(c.name, c.unit, c.value, c.reference, c.error, c.tolerance, c.error_unit,
              'pass' if c.passed else 'FAIL') for c in checks]
     table = Table('reference', 'All values of the reference cases',

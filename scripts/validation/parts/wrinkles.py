@@ -64,6 +64,8 @@ def draw_from_below(axis, points, tetrahedra):
                              np.clip(corners[:, 2], 0.0, TOP), shading='gouraud', cmap='cividis',
                              vmin=0.0, vmax=TOP, rasterized=True)
     axis.set_aspect('equal')
+    axis.set_xlim(-21.0, 21.0)
+    axis.set_ylim(-21.0, 21.0)
     axis.grid(False)
     return picture
 
@@ -75,8 +77,8 @@ def evaluate(results, quick):
         'of the circle on which the cup stands at rest; 8 and its multiples are in the mesh, whose '
         'stem and sectors repeat 8 times.'])
     rows = []
-    figure, axes = plt.subplots(1, len(PRESSURES), sharey=True, figsize=(style.WIDTH, 2.7),
-                                constrained_layout=True)
+    figure, axes = plt.subplots(1, len(PRESSURES), sharex=True, sharey=True,
+                                figsize=(style.WIDTH, 2.7), constrained_layout=True)
     picture = None
     for axis, grip in zip(axes, jobs(quick)):
         series = results.series(grip)
@@ -87,7 +89,7 @@ def evaluate(results, quick):
             continue
         points, tetrahedra, displacement = read_vtu(results.folder(run) / 'final.vtu')
         picture = draw_from_below(axis, points, tetrahedra)
-        axis.set_title(f'{1e-3 * grip.pressure:g} kPa, lift {1e3 * run.lift:.2f} mm', loc='left')
+        axis.set_title(f'{1e-3 * grip.pressure:g} kPa, {1e3 * run.lift:.2f} mm', loc='left')
         axis.set_xlabel('x [mm]')
         _, radius, height = lip_ring(points, displacement)
         number = 1 + int(np.argmax(waves(radius)[1:]))
