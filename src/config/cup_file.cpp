@@ -76,6 +76,10 @@ Cup ReadCup(const YAML::Node& node, const std::string& directory,
   cup.material.young_modulus = reader.GetDouble("young_modulus");
   cup.material.poisson_ratio = reader.GetDouble("poisson_ratio");
   cup.material.density = reader.GetDouble("density");
+  const std::string model =
+      reader.GetChoice("material", {"corotational", "neo_hookean"}, "corotational");
+  cup.material.model =
+      model == "neo_hookean" ? MaterialModel::kNeoHookean : MaterialModel::kCorotational;
   ParameterReader damping = reader.GetMap("damping");
   cup.damping.mass = damping.GetDouble("mass", cup.damping.mass);
   cup.damping.stiffness = damping.GetDouble("stiffness", cup.damping.stiffness);

@@ -108,16 +108,17 @@ void ImplicitEuler::MapBlocks() {
   }
 }
 
-template <typename Stiffness>
-void ImplicitEuler::AddBlocks(const Stiffness& K_e, double factor, const BlockTarget* targets,
-                              int num_nodes) {
+template <typename Element>
+void ImplicitEuler::AddBlocks(const typename Element::Stiffness& K_e, double factor,
+                              const BlockTarget* targets) {
   double* const free_values = A_ff_.valuePtr();
   double* const coupling_values = A_cf_.valuePtr();
   double* const clamped_values = A_cc_.data();
-  for (int a = 0; a < num_nodes; ++a) {
-    for (int b = 0; b < num_nodes; ++b) {
-      const BlockTarget& target = targets[a * num_nodes + b];
+  for (int a = 0; a < Element::kNodes; ++a) {
+    for (int b = 0; b < Element::kNodes; ++b) {
+      const BlockTarget& target = targets[a * Element::kNodes + b];
       if (target.matrix == BlockTarget::Matrix::kNone) continue;
+      const Eigen::Matrix3d block = factor * Element::Block(K_e, a, b);
       const bool diagonal = target.matrix == BlockTarget::Matrix::kFreeDiagonal;
       double* const values = target.matrix == BlockTarget::Matrix::kClampedFree ? coupling_values
                              : target.matrix == BlockTarget::Matrix::kClamped   ? clamped_values
@@ -125,31 +126,33 @@ void ImplicitEuler::AddBlocks(const Stiffness& K_e, double factor, const BlockTa
       for (int j = 0; j < 3; ++j) {
         const int first = diagonal ? j : 0;  // the diagonal block's lower triangle
         double* column = values + target.offsets[static_cast<std::size_t>(j)];
-        for (int i = first; i < 3; ++i) column[i - first] += factor * K_e(3 * a + i, 3 * b + j);
+        for (int i = first; i < 3; ++i) column[i - first] += block(i, j);
       }
     }
   }
 }
 
-template <typename Element>
-void ImplicitEuler::AddElements(const std::vector<Element>& elements, const Eigen::Matrix3Xd& x,
-                                const Eigen::Matrix3Xd& v, double h, double beta) {
-  constexpr int kNodes = Element::Nodes3::ColsAtCompileTime;
-  typename Element::Nodes3 f_e;
+template <typename Element, typename Law>
+void ImplicitEuler::AddElements(const std::vector<Element>& elements, const Law& law,
+                                const Eigen::Matrix3Xd& x, const Eigen::Matrix3Xd& v, double h,
+                                double beta) {
+  using NodalVectors = typename Element::NodalVectors;
+  using Stacked = Eigen::Matrix<double, NodalVectors::SizeAtCompileTime, 1>;
+  NodalVectors f_e;
+  NodalVectors K_v;
   typename Element::Stiffness K_e;
   const BlockTarget* targets = targets_.data();
   const double factor = h * beta + h * h;
   for (const Element& element : elements) {
-    ElementForces(element, body_->lame(), element.Gather(x), &f_e, &K_e);
-    AddBlocks(K_e, factor, targets, kNodes);
-    targets += kNodes * kNodes;
+    ElementForces(element, law, element.Gather(x), &f_e, &K_e);
+    AddBlocks<Element>(K_e, factor, targets);
+    targets += Element::kNodes * Element::kNodes;
 
-    const typename Element::Nodes3 v_e = element.Gather(v);
-    typename Element::Nodes3 K_v;
-    Eigen::Map<Eigen::Matrix<double, 3 * kNodes, 1>>(K_v.data()).noalias() =
-        K_e * Eigen::Map<const Eigen::Matrix<double, 3 * kNodes, 1>>(v_e.data());
-    for (int a = 0; a < kNodes; ++a) {
-      b_.col(element.nodes[static_cast<std::size_t>(a)]) += h * f_e.col(a) - factor * K_v.col(a);
+    const NodalVectors v_e = element.Gather(v);
+    Eigen::Map<Stacked>(K_v.data()).noalias() = K_e * Eigen::Map<const Stacked>(v_e.data());
+    f_e = h * f_e - factor * K_v;
+    for (int a = 0; a < Element::kNodes; ++a) {
+      b_.col(element.nodes[static_cast<std::size_t>(a)]) += f_e.row(a).transpose();
     }
   }
 }
@@ -179,8 +182,9 @@ void ImplicitEuler::Linearize(const Eigen::Matrix3Xd& x, const Eigen::Matrix3Xd&
   std::fill_n(A_cf_.valuePtr(), A_cf_.nonZeros(), 0.0);
   A_cc_.setZero();
   b_.setZero(3, x.cols());
-  std::visit([&](const auto& elements) { AddElements(elements, x, v, h, damping.stiffness); },
-             body_->elements());
+  std::visit([&](const auto& elements,
+                 const auto& law) { AddElements(elements, law, x, v, h, damping.stiffness); },
+             body_->elements(), body_->law());
   AddMasses(v, h, damping.mass, gravity);
 }
 

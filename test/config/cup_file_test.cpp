@@ -49,6 +49,24 @@ TEST_F(CupFile, MapIsRelativeToTheDirectoryAndKeepsDefaultDamping) {
   EXPECT_EQ(cup.damping.stiffness, RayleighDamping{}.stiffness);
 }
 
+TEST_F(CupFile, MaterialIsCorotationalUnlessSaidOtherwise) {
+  EXPECT_EQ(Read("soft").material.model, MaterialModel::kCorotational);
+  std::string yaml = kSoft;
+  yaml.insert(yaml.size() - 1, ", material: neo_hookean");
+  EXPECT_EQ(Read(yaml).material.model, MaterialModel::kNeoHookean);
+  yaml.replace(yaml.find("neo_hookean"), 11, "corotational");
+  EXPECT_EQ(Read(yaml).material.model, MaterialModel::kCorotational);
+}
+
+TEST_F(CupFile, RefusesAnUnknownMaterial) {
+  for (const char* word : {"neohookean", "1.0", "[1, 2]"}) {
+    std::string yaml = kSoft;
+    yaml.insert(yaml.size() - 1, std::string(", material: ") + word);
+    EXPECT_EQ(Error(yaml),
+              std::string("cup.material = ") + word + "; expected corotational or neo_hookean");
+  }
+}
+
 TEST_F(CupFile, ResolvedCupCanBeChangedAndReadAgain) {
   const std::string cups = directory_.path() + "/cups";
   YAML::Node cup = ResolveCup(YAML::Load("soft"), "/nowhere", cups);

@@ -99,10 +99,12 @@ TEST_F(ScenarioFile, OverridesChangeAnyKey) {
 
 TEST_F(ScenarioFile, OverridesReachIntoANamedCup) {
   EXPECT_EQ(Read(kMinimal, {"cup.young_modulus=5.0e+5"}).parameters.material.young_modulus, 5e5);
-  const Scenario scenario = Read(kMinimal, {"cup=hard", "cup.damping.stiffness=0.5"});
+  const Scenario scenario =
+      Read(kMinimal, {"cup=hard", "cup.damping.stiffness=0.5", "cup.material=neo_hookean"});
   EXPECT_EQ(scenario.cup.name, "hard");
   EXPECT_EQ(scenario.parameters.material.young_modulus, 900000.0);
   EXPECT_EQ(scenario.parameters.damping.stiffness, 0.5);
+  EXPECT_EQ(scenario.parameters.material.model, MaterialModel::kNeoHookean);
 }
 
 TEST_F(ScenarioFile, BadOverridesAreRefused) {

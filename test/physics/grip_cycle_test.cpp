@@ -10,13 +10,24 @@
 namespace vacuum_gripper_sim {
 namespace {
 
-class GripCycleTest : public testing::TestWithParam<std::string> {};
+/// A bell of a material.
+struct Bell {
+  const char* title;
+  const char* mesh;
+  double poisson_ratio;
+  MaterialModel model;
+};
+
+class GripCycleTest : public testing::TestWithParam<Bell> {};
 
 TEST_P(GripCycleTest, SealsOnceAndLosesOnceAtEveryPressure) {
   double last_hold = 0.0;
   for (const double pressure : {-2000.0, -4000.0, -6000.0, -8000.0, -10000.0}) {
     SCOPED_TRACE(pressure);
-    GripCycle cycle(LoadBell(GetParam()), A20(0.01));
+    SimulatorParameters parameters = A20(0.01);
+    parameters.material.poisson_ratio = GetParam().poisson_ratio;
+    parameters.material.model = GetParam().model;
+    GripCycle cycle(LoadBell(GetParam().mesh), parameters);
     cycle.Drive(kCupLength - 0.001, 0.01, 0.0, 0.1);
     EXPECT_EQ(cycle.result().status, SealStatus::kOpen);
     EXPECT_LT(cycle.result().force_M.z(), 0.0);  // pressed
@@ -36,7 +47,7 @@ TEST_P(GripCycleTest, SealsOnceAndLosesOnceAtEveryPressure) {
     EXPECT_EQ(cycle.undone_steps, 0);
     EXPECT_LE(cycle.max_penetration, 1e-6);
     RecordProperty("hold_N", std::to_string(hold));
-    std::printf("%s at %.0f Pa: hold %.3f N, peak %.3f N, lost at %.2f mm\n", GetParam().c_str(),
+    std::printf("%s at %.0f Pa: hold %.3f N, peak %.3f N, lost at %.2f mm\n", GetParam().title,
                 pressure, hold, cycle.peak_force, 1e3 * cycle.lift_at_loss);
 
     cycle.Step(0.0);
@@ -44,8 +55,15 @@ TEST_P(GripCycleTest, SealsOnceAndLosesOnceAtEveryPressure) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Bells, GripCycleTest, testing::Values("linear_700", "quadratic_700"),
-                         [](const auto& info) { return info.param; });
+INSTANTIATE_TEST_SUITE_P(
+    Bells, GripCycleTest,
+    testing::Values(Bell{"linear_700", "linear_700", 0.45, MaterialModel::kCorotational},
+                    Bell{"quadratic_700", "quadratic_700", 0.45, MaterialModel::kCorotational},
+                    Bell{"linear_700_nh", "linear_700", 0.45, MaterialModel::kNeoHookean},
+                    Bell{"quadratic_700_nh", "quadratic_700", 0.45, MaterialModel::kNeoHookean},
+                    Bell{"quadratic_700_nh_nearly_incompressible", "quadratic_700", 0.499,
+                         MaterialModel::kNeoHookean}),
+    [](const auto& info) { return std::string(info.param.title); });
 
 TEST(GripCycle, TwoRunsAreBitIdentical) {
   std::vector<Eigen::Matrix3Xd> ends;

@@ -11,8 +11,9 @@ constexpr double kSmallForce = 8.45e-4;       // Euler-Bernoulli: 1 mm [N]
 constexpr double kLargeForce = 0.0563333333;  // F L^2 / (E I) = 2 [N]
 
 /// Mean displacement of the tip's nodes. [m]
-Eigen::Vector3d Tip(const TetMesh& mesh, double force, int increments) {
-  Statics statics(mesh, ReferenceA20(), mesh.mount_nodes);
+Eigen::Vector3d Tip(const TetMesh& mesh, double force, int increments,
+                    MaterialModel model = MaterialModel::kCorotational) {
+  Statics statics(mesh, ReferenceA20(model), mesh.mount_nodes);
   statics.SetDeadLoad(UniformTraction(mesh, mesh.cavity_faces, Eigen::Vector3d(0.0, 0.0, -force)));
   const Statics::Solution solution = statics.Solve(increments);
   EXPECT_NEAR(solution.support.z(), force, 1e-5 * force);
@@ -46,6 +47,16 @@ TEST(Beam, QuadraticElementsAgainstTheConvergedSolution) {
   // The same mesh in CalculiX: what is left is the material.
   Compare("beam quadratic, same mesh, small: uz [m]", small, -9.826295e-4, 1e-4);
   Compare("beam quadratic, same mesh, large: uz [m]", large.z(), {-0.0489503, -0.0490030}, 0.02);
+}
+
+TEST(Beam, NeoHookeanAgainstNeoHookean) {
+  constexpr MaterialModel kModel = MaterialModel::kNeoHookean;
+  const Eigen::Vector3d linear = Tip(LoadReferenceMesh("beam_linear"), kLargeForce, 4, kModel);
+  Compare("beam linear nh, large: uz [m]", linear.z(), -0.0231014, 0.02);
+  const Eigen::Vector3d large = Tip(LoadReferenceMesh("beam_quadratic"), kLargeForce, 5, kModel);
+  Compare("beam quadratic nh, large: uz [m]", large.z(), -0.0492548, 0.03);
+  Compare("beam quadratic nh, large: ux [m]", large.x(), -0.0158302, 0.03);
+  Compare("beam quadratic nh, same mesh, large: uz [m]", large.z(), -0.0490030, 0.02);
 }
 
 }  // namespace

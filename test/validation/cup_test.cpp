@@ -32,8 +32,9 @@ struct HoldCase {
   double pressure;        // gauge [Pa]
   Reference press_force;  // on the mount [N]
   Reference hold_force;   // on the mount [N]
-  const char* profile;    // file
+  const char* profile;    // file; null: none
   Tolerance shape;        // [mm]
+  Tolerance hold{0.03};
 };
 
 // Outside the target of 5 %: reached 6.4 %. It is the mesh: 2902 elements reach 2.8 % at 1 mm, and
@@ -63,10 +64,11 @@ void PressAndHold(const HoldCase& test) {
   cycle.Drive(kCupLength - test.press, kPressSpeed, test.pressure, kSettlingTime);
   ASSERT_EQ(cycle.result().status, SealStatus::kSealed);
   const StepResult& held = cycle.result();
-  Compare(std::string(name) + ": suction force [N]", held.force_M.z(), test.hold_force, 0.03);
+  Compare(std::string(name) + ": suction force [N]", held.force_M.z(), test.hold_force, test.hold);
   Compare(std::string(name) + ": support balance [N]", held.force_M.z() + held.contact_force,
           -test.pressure * held.cavity_area, 1e-5);
 
+  if (test.profile == nullptr) return;
   const Meridian profile = ReadProfile(test.profile);
   const Meridian shape = MeridianOf(cycle.simulator().mesh(), held.x_W);
   const double to_shape = Farthest(profile, shape);
@@ -86,6 +88,18 @@ TEST(CupHold, A20) {
                 "a20_profile_press1mm_6kPa.csv", 0.3});
   PressAndHold({"A20", ReferenceA20(), 0.002, -6000.0, -0.471, spread(-0.002),
                 "a20_profile_press2mm_6kPa.csv", 0.3});
+}
+
+TEST(CupHold, NeoHookeanA20) {
+  const ReferenceTable nh("a20_hold_neohooke.csv");
+  const Material material = ReferenceA20(MaterialModel::kNeoHookean);
+  // Outside the target of 3 %: reached 3.5 and 4.2 %; it is the mesh, 2902 elements reach 1.7 and
+  // 2.0 %.
+  const Tolerance hold(0.03, 0.043);
+  PressAndHold({"A20 nh", material, 0.001, -6000.0, nh.Force(-0.001, 0.0),
+                nh.Force(-0.001, -6000.0), nullptr, 0.0, hold});
+  PressAndHold({"A20 nh", material, 0.002, -6000.0, nh.Force(-0.002, 0.0),
+                nh.Force(-0.002, -6000.0), nullptr, 0.0, hold});
 }
 
 // A30 has no neo-Hookean run: the spread is that of A20 at nearly the same |p| / E.
@@ -121,15 +135,16 @@ struct LiftPoint {
 
 /// Presses by 1 mm, draws the cup on and lifts it, resting at each point, until it lets go.
 void Uplift(double pressure, const std::vector<LiftPoint>& points, const Reference& loss_force,
-            const Reference& loss_lift_mm) {
-  GripCycle cycle = MakeCycle(LoadBell("quadratic_700"), ReferenceA20());
+            const Reference& loss_lift_mm, MaterialModel model = MaterialModel::kCorotational) {
+  const char* const cup = model == MaterialModel::kNeoHookean ? "A20 nh" : "A20";
+  GripCycle cycle = MakeCycle(LoadBell("quadratic_700"), ReferenceA20(model));
   cycle.Drive(kCupLength - 0.001, kPressSpeed, 0.0, kSettlingTime);
   cycle.Drive(kCupLength - 0.001, kPressSpeed, pressure, kSettlingTime);
   ASSERT_EQ(cycle.result().status, SealStatus::kSealed);
   char name[64];
   for (const LiftPoint& point : points) {
     cycle.Drive(kCupLength + point.lift, kPullSpeed, pressure, kSettlingTime);
-    std::snprintf(name, sizeof(name), "A20, %g kPa, lift %g mm: force [N]", 1e-3 * pressure,
+    std::snprintf(name, sizeof(name), "%s, %g kPa, lift %g mm: force [N]", cup, 1e-3 * pressure,
                   1e3 * point.lift);
     EXPECT_EQ(cycle.result().status, SealStatus::kSealed) << name;
     Compare(name, cycle.result().force_M.z(), point.force, point.tolerance);
@@ -137,9 +152,9 @@ void Uplift(double pressure, const std::vector<LiftPoint>& points, const Referen
   cycle.PullUntilLost(kCupLength + 0.014, kPullSpeed, pressure, 0.0);
   EXPECT_EQ(cycle.result().status, SealStatus::kLost);
   EXPECT_EQ(cycle.seal_flips, 2);
-  std::snprintf(name, sizeof(name), "A20, %g kPa, lost: force [N]", 1e-3 * pressure);
+  std::snprintf(name, sizeof(name), "%s, %g kPa, lost: force [N]", cup, 1e-3 * pressure);
   Compare(name, cycle.peak_force, loss_force, 0.05);
-  std::snprintf(name, sizeof(name), "A20, %g kPa, lost: lift [mm]", 1e-3 * pressure);
+  std::snprintf(name, sizeof(name), "%s, %g kPa, lost: lift [mm]", cup, 1e-3 * pressure);
   CompareAbsolute(name, 1e3 * cycle.lift_at_loss, loss_lift_mm, 0.7);
 }
 
@@ -172,6 +187,14 @@ TEST(CupUplift, A20AtMinus6kPa) {
   const double last = svk.Force(0.006, -6000.0);
   points.push_back({0.006, {last, last * before.b / before.a}});
   Uplift(-6000.0, points, {4.4, 5.0}, {6.5, 7.4});
+}
+
+TEST(CupUplift, NeoHookeanA20) {
+  const ReferenceTable nh("a20_uplift_6kPa_neohooke.csv");
+  // Outside the target of 5 % at 3 mm: reached 5.7 %; it is the mesh, 2902 elements reach 0.6 %.
+  std::vector<LiftPoint> points{{0.003, nh.Force(0.003, -6000.0), Tolerance(0.05, 0.058)}};
+  for (const double lift : {0.0045, 0.0055}) points.push_back({lift, nh.Force(lift, -6000.0)});
+  Uplift(-6000.0, points, {4.8, 5.0}, {7.1, 7.4}, MaterialModel::kNeoHookean);
 }
 
 }  // namespace

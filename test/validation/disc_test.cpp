@@ -11,17 +11,20 @@ namespace {
 
 class Disc {
  public:
-  explicit Disc(const std::string& name)
-      : mesh_(LoadReferenceMesh(name)), bottom_(MakeCavitySurface(mesh_)) {}
+  explicit Disc(const std::string& name, MaterialModel model = MaterialModel::kCorotational)
+      : mesh_(LoadReferenceMesh(name)),
+        bottom_(MakeCavitySurface(mesh_)),
+        material_(ReferenceA20(model)) {}
 
   /// Largest rise of the bottom's nodes [m]; checks the support on the way.
   double Rise(double pressure, int increments) const {
-    Statics statics(mesh_, ReferenceA20(), mesh_.mount_nodes);
+    Statics statics(mesh_, material_, mesh_.mount_nodes);
     statics.SetPressure(bottom_, pressure);
     const Statics::Solution solution = statics.Solve(increments);
     char name[64];
-    std::snprintf(name, sizeof(name), "%s, %g Pa: support [N]",
-                  mesh_.quadratic() ? "disc quadratic" : "disc linear", pressure);
+    std::snprintf(name, sizeof(name), "%s%s, %g Pa: support [N]",
+                  mesh_.quadratic() ? "disc quadratic" : "disc linear",
+                  material_.model == MaterialModel::kNeoHookean ? " nh" : "", pressure);
     Compare(name, solution.support.z(), -pressure * BottomArea(), 1e-5);
     double rise = 0.0;
     for (const int node : bottom_.nodes) {
@@ -52,6 +55,7 @@ class Disc {
  private:
   TetMesh mesh_;
   CavitySurface bottom_;
+  Material material_;
 };
 
 TEST(Disc, LinearElementsAgainstTheSameMesh) {
@@ -68,6 +72,20 @@ TEST(Disc, QuadraticElementsAgainstTheSameMesh) {
   Compare("disc quadratic, 50 Pa: max w [m]", disc.Rise(50.0, 1), {4.082851e-4, 4.092309e-4}, 0.03);
   Compare("disc quadratic, 1 kPa: max w [m]", disc.Rise(1000.0, 3), {3.295259e-3, 3.449931e-3},
           0.03);
+}
+
+TEST(Disc, NeoHookeanAgainstNeoHookean) {
+  const Disc linear("disc_linear", MaterialModel::kNeoHookean);
+  Compare("disc linear nh, 1 kPa: max w [m]", linear.Rise(1000.0, 3), 1.759834e-3, 0.03);
+  Compare("disc linear nh, 4 kPa: max w [m]", linear.Rise(4000.0, 6), 5.39313e-3, 0.03);
+
+  const Disc quadratic("disc_quadratic", MaterialModel::kNeoHookean);
+  const double small = quadratic.Rise(1000.0, 3);
+  const double large = quadratic.Rise(4000.0, 6);
+  Compare("disc quadratic nh, 1 kPa: max w [m]", small, 3.54893e-3, 0.05);
+  Compare("disc quadratic nh, 4 kPa: max w [m]", large, 6.542136e-3, 0.05);
+  Compare("disc quadratic nh, same mesh, 1 kPa: max w [m]", small, 3.449931e-3, 0.03);
+  Compare("disc quadratic nh, same mesh, 4 kPa: max w [m]", large, 6.422686e-3, 0.03);
 }
 
 }  // namespace

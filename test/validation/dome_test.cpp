@@ -53,8 +53,9 @@ Dome QuadraticDome() {
 }
 
 /// Height change of the cavity's apex [m]; checks the support on the way.
-double ApexRise(const Dome& dome, double pressure, const std::string& name) {
-  Statics statics(dome.mesh, ReferenceA20(), dome.bead);
+double ApexRise(const Dome& dome, double pressure, const std::string& name,
+                MaterialModel model = MaterialModel::kCorotational) {
+  Statics statics(dome.mesh, ReferenceA20(model), dome.bead);
   statics.SetPressure(dome.inner, pressure);
   const Statics::Solution solution = statics.Solve(4);
   // The loop between dome and bead is clamped: its area does not change.
@@ -86,6 +87,18 @@ TEST(Dome, QuadraticElementsAgainstTheConvergedSolution) {
           {-6.156391e-4, -5.788617e-4}, 0.03);
   Compare("dome quadratic, +2 kPa: apex uz [m]", ApexRise(dome, 2000.0, "dome quadratic, +2 kPa:"),
           {5.129908e-4, 5.374454e-4}, 0.03);
+}
+
+TEST(Dome, NeoHookeanAgainstNeoHookean) {
+  const auto compare = [](const Dome& dome, double pressure, const std::string& name,
+                          double reference) {
+    Compare(name + " apex uz [m]", ApexRise(dome, pressure, name, MaterialModel::kNeoHookean),
+            reference, 0.03);
+  };
+  compare(LinearDome(), -2000.0, "dome linear nh, -2 kPa:", -4.425066e-4);
+  compare(LinearDome(), 2000.0, "dome linear nh, +2 kPa:", 4.249573e-4);
+  compare(QuadraticDome(), -2000.0, "dome quadratic nh, -2 kPa:", -5.788617e-4);
+  compare(QuadraticDome(), 2000.0, "dome quadratic nh, +2 kPa:", 5.374454e-4);
 }
 
 }  // namespace

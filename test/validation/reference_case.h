@@ -27,11 +27,13 @@ inline TetMesh LoadReferenceMesh(const std::string& name) {
 }
 
 /// Silicone of the references. [Pa], [-], [kg/m^3]
-inline Material ReferenceA20() { return {338000.0, 0.45, 1080.0}; }
+inline Material ReferenceA20(MaterialModel model = MaterialModel::kCorotational) {
+  return {338000.0, 0.45, 1080.0, model};
+}
 inline Material ReferenceA30() { return {593000.0, 0.45, 1080.0}; }
 
-/// What a converged solution says: one value, or the spread between two materials that a linear
-/// co-rotational one is expected to lie in.
+/// What a converged solution says: one value (of the neo-Hookean law for the neo-Hookean one), or
+/// the spread between two materials that a linear co-rotational one is expected to lie in.
 struct Reference {
   double a;
   double b;

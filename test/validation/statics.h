@@ -100,28 +100,29 @@ class Statics {
     }
   }
 
-  template <typename Element>
-  void AddElement(const Element& element, const Eigen::Matrix3Xd& x, Triplets* triplets) const {
-    using Nodes3 = typename Element::Nodes3;
-    Nodes3 x_e = element.Gather(x);
+  template <typename Element, typename Law>
+  void AddElement(const Element& element, const Law& law, const Eigen::Matrix3Xd& x,
+                  Triplets* triplets) const {
+    using NodalVectors = typename Element::NodalVectors;
+    NodalVectors x_e = element.Gather(x);
     typename Element::Stiffness tangent;
     for (Eigen::Index k = 0; k < x_e.size(); ++k) {
       const double at = x_e.data()[k];
-      Nodes3 ahead;
-      Nodes3 behind;
+      NodalVectors ahead;
+      NodalVectors behind;
       x_e.data()[k] = at + kDifferenceStep;
-      ElementForces(element, body_.lame(), x_e, &ahead, nullptr);
+      ElementForces(element, law, x_e, &ahead, nullptr);
       x_e.data()[k] = at - kDifferenceStep;
-      ElementForces(element, body_.lame(), x_e, &behind, nullptr);
+      ElementForces(element, law, x_e, &behind, nullptr);
       x_e.data()[k] = at;
-      const Nodes3 slope = (behind - ahead) / (2.0 * kDifferenceStep);
+      const NodalVectors slope = (behind - ahead) / (2.0 * kDifferenceStep);
       tangent.col(k) = Eigen::Map<const Eigen::VectorXd>(slope.data(), slope.size());
     }
-    for (int a = 0; a < Nodes3::ColsAtCompileTime; ++a) {
-      for (int b = 0; b < Nodes3::ColsAtCompileTime; ++b) {
+    for (int a = 0; a < Element::kNodes; ++a) {
+      for (int b = 0; b < Element::kNodes; ++b) {
         AddBlock(element.nodes[static_cast<std::size_t>(a)],
-                 element.nodes[static_cast<std::size_t>(b)],
-                 tangent.template block<3, 3>(3 * a, 3 * b), triplets);
+                 element.nodes[static_cast<std::size_t>(b)], Element::Block(tangent, a, b),
+                 triplets);
       }
     }
   }
@@ -151,10 +152,10 @@ class Statics {
   Eigen::SparseMatrix<double> Tangent(double factor, const Eigen::Matrix3Xd& x) const {
     Triplets triplets;
     std::visit(
-        [&](const auto& elements) {
-          for (const auto& element : elements) AddElement(element, x, &triplets);
+        [&](const auto& elements, const auto& law) {
+          for (const auto& element : elements) AddElement(element, law, x, &triplets);
         },
-        body_.elements());
+        body_.elements(), body_.law());
     if (surface_ != nullptr) AddPressure(factor * pressure_, x, &triplets);
     Eigen::SparseMatrix<double> tangent(num_rows_, num_rows_);
     tangent.setFromTriplets(triplets.begin(), triplets.end());

@@ -18,7 +18,8 @@ struct Cup {
 };
 
 /** Reads the YAML map of a cup: `name`, `mesh` (path, relative to the cup's file), `young_modulus`
- [Pa], `poisson_ratio` [-], `density` [kg/m^3], `damping: {mass [1/s], stiffness [s]}`.
+ [Pa], `poisson_ratio` [-], `density` [kg/m^3], `material` (`corotational`, the default, or
+ `neo_hookean`), `damping: {mass [1/s], stiffness [s]}`.
  @param node      The map, or a scalar: a file name, or the bare name of a file in `cup_directory`.
  @param directory Directory that relative paths in the map (or the scalar) are relative to.
  @param cup_directory Directory of the cups that ship with the package (config/cups).

@@ -64,11 +64,11 @@ class ImplicitEuler {
 
   void FindSparsity();
   void MapBlocks();
-  template <typename Element>
-  void AddElements(const std::vector<Element>& elements, const Eigen::Matrix3Xd& x,
+  template <typename Element, typename Law>
+  void AddElements(const std::vector<Element>& elements, const Law& law, const Eigen::Matrix3Xd& x,
                    const Eigen::Matrix3Xd& v, double h, double beta);
-  template <typename Stiffness>
-  void AddBlocks(const Stiffness& K_e, double factor, const BlockTarget* targets, int num_nodes);
+  template <typename Element>
+  void AddBlocks(const typename Element::Stiffness& K_e, double factor, const BlockTarget* targets);
   void AddMasses(const Eigen::Matrix3Xd& v, double h, double alpha, const Eigen::Vector3d& gravity);
 
   const ElasticBody* body_;

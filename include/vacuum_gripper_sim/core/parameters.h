@@ -5,11 +5,15 @@
 
 namespace vacuum_gripper_sim {
 
+/// How stress follows from deformation; material_model.h has the equations.
+enum class MaterialModel { kCorotational, kNeoHookean };
+
 /// Silicone as an isotropic elastic material.
 struct Material {
   double young_modulus{338000.0};  ///< [Pa] > 0
   double poisson_ratio{0.45};      ///< [-] 0 <= nu < 0.5
   double density{1080.0};          ///< [kg/m^3] > 0
+  MaterialModel model{MaterialModel::kCorotational};
 };
 
 /// Rayleigh damping D = mass * M + stiffness * K.
