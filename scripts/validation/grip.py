@@ -15,7 +15,6 @@ RAMP_RATE = 1e5         # of the regulator [Pa/s]
 SETTLING_TIME = 0.2     # forces are then within 1e-5 of those at rest [s]
 STOP_AFTER_LOSS = 0.1   # time in which a flicker of the seal would show [s]
 TYPICAL_LIFT = 0.006    # at loss; for estimates of time only [m]
-SEAL_GAP = 1e-4         # default of seal.close_gap and seal.open_gap [m]
 
 
 @dataclasses.dataclass(frozen=True)
@@ -31,7 +30,7 @@ class Grip:
     lift: float = 0.012             # of the mount where the pull ends at the latest [m]
     time_step: float = 0.01         # [s]
     damping: float = 0.002          # of the stiffness [s]
-    seal_factor: float = 1.0        # on the default gaps of the seal
+    seal_gap: Optional[float] = None  # that counts as sealed [m]; None: derived from the mesh
     alone: bool = False             # nothing runs beside it: its step times count
     may_fail: bool = False          # steps may be undone, as long as it says so
 
@@ -49,8 +48,8 @@ class Grip:
             words.append(f'to{1e3 * self.lift:g}mm')
         if self.damping != default.damping:
             words.append(f'damping{1e3 * self.damping:g}ms')
-        if self.seal_factor != default.seal_factor:
-            words.append(f'seal{self.seal_factor:.3g}')
+        if self.seal_gap is not None:
+            words.append(f'seal{1e6 * self.seal_gap:.0f}um')
         if self.alone:
             words.append('alone')
         return '_'.join(words)
@@ -99,9 +98,8 @@ class Grip:
         }
         if self.material != 'corotational':
             settings['cup.material'] = self.material
-        if self.seal_factor != 1.0:
-            settings['seal.close_gap'] = f'{SEAL_GAP * self.seal_factor:.9f}'
-            settings['seal.open_gap'] = f'{SEAL_GAP * self.seal_factor:.9f}'
+        if self.seal_gap is not None:
+            settings['seal.close_gap'] = settings['seal.open_gap'] = f'{self.seal_gap:.9f}'
         return settings
 
     def command(self, folder):

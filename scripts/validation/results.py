@@ -1,6 +1,6 @@
 """The finished runs, for the parts to ask."""
 
-import re
+import yaml
 
 from .series import Series
 
@@ -26,10 +26,13 @@ class Results:
             self.cache[grip] = Series(self.folder(grip) / 'timeseries.csv', grip)
         return self.cache[grip]
 
+    def summary(self, grip):
+        """The figures of summary.yaml by name."""
+        with open(self.folder(grip) / 'summary.yaml', encoding='utf-8') as file:
+            return yaml.safe_load(file)
+
     def num_elements(self, grip):
-        """Of the run's mesh, as final.vtu has it."""
-        with open(self.folder(grip) / 'final.vtu', encoding='utf-8') as file:
-            return int(re.search(r'NumberOfCells="(\d+)"', file.read(2000))[1])
+        return self.summary(grip)['elements']
 
     def failed(self):
         """(id, status, last line of output) of runs that ended as they may not."""

@@ -12,10 +12,10 @@ NAME = 'seal'
 PRESSURES = (-2e3, -4e3, -6e3)
 QUICK_PRESSURES = (-2e3, -6e3)
 TOLERANCE = 5.0  # change of the lift at loss [%]
-# What is changed from the default, with what is called.
-VARIANTS = (('seal gaps / 3', {'seal_factor': 1.0 / 3.0}, style.BLUE, 'v'),
-            ('seal gaps x 3', {'seal_factor': 3.0}, style.BLUE, '^'),
-            ('rim twice as fine', {'mesh': 'quadratic_700_fine_rim'}, style.GREEN, 's'),
+# What is changed from the default: name, how, colour and marker.
+GAP_VARIANTS = (('seal gaps / 3', 1.0 / 3.0, style.BLUE, 'v'),
+                ('seal gaps x 3', 3.0, style.BLUE, '^'))
+VARIANTS = (('rim twice as fine', {'mesh': 'quadratic_700_fine_rim'}, style.GREEN, 's'),
             ('time step 1 ms', {'time_step': 0.001}, style.VERMILION, 'o'))
 
 
@@ -27,6 +27,21 @@ def jobs(quick):
     default = [Grip(pressure=pressure) for pressure in pressures(quick)]
     return default + [dataclasses.replace(grip, **change) for grip in default
                       for _, change, _, _ in VARIANTS]
+
+
+def gap_variants(results, grip):
+    """(name, grip, colour, marker) with gaps that are a multiple of those of the mesh."""
+    if not results.ok(grip):
+        return []
+    gap = results.summary(grip)['seal_open_gap']
+    return [(name, dataclasses.replace(grip, seal_gap=factor * gap), color, marker)
+            for name, factor, color, marker in GAP_VARIANTS]
+
+
+def followups(results, quick):
+    """Runs that can be told only from the results of jobs()."""
+    return [grip for pressure in pressures(quick)
+            for _, grip, _, _ in gap_variants(results, Grip(pressure=pressure))]
 
 
 def evaluate(results, quick):
@@ -43,8 +58,11 @@ def evaluate(results, quick):
             continue
         rows.append((1e-3 * pressure, 'default', 1e3 * default.lift_at_loss, 0.0,
                      default.peak_force, 0.0))
-        for k, (name, change, color, marker) in enumerate(VARIANTS):
-            series = results.series(dataclasses.replace(grip, **change))
+        variants = gap_variants(results, grip) + [
+            (name, dataclasses.replace(grip, **change), color, marker)
+            for name, change, color, marker in VARIANTS]
+        for k, (name, variant, color, marker) in enumerate(variants):
+            series = results.series(variant)
             if series is None:
                 continue
             check = check_relative(NAME, f'A20, {1e-3 * pressure:g} kPa, {name}: lift at loss',
