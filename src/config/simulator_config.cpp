@@ -5,9 +5,10 @@ namespace {
 
 LinearSolverParameters ReadLinearSolver(ParameterReader reader) {
   LinearSolverParameters p;
-  const std::string method = reader.GetChoice("method", {"direct", "conjugate_gradient"}, "direct");
-  p.method =
-      method == "direct" ? LinearSolverMethod::kDirect : LinearSolverMethod::kConjugateGradient;
+  const std::string method =
+      reader.GetChoice("method", {"direct", "conjugate_gradient", "asynchronous"}, "direct");
+  if (method == "conjugate_gradient") p.method = LinearSolverMethod::kConjugateGradient;
+  if (method == "asynchronous") p.method = LinearSolverMethod::kAsynchronous;
   p.tolerance = reader.GetDouble("tolerance", p.tolerance);
   p.max_iterations = reader.GetInt("max_iterations", p.max_iterations);
   p.refactor_interval = reader.GetInt("refactor_interval", p.refactor_interval);

@@ -13,10 +13,11 @@ namespace vacuum_gripper_sim {
 namespace {
 
 /// Passes over measuring, solving and correcting. Planes need one, or one more for each time that
-/// the motion brought new nodes to them; spheres two or three.
+/// the motion brought new nodes to them or, with an earlier factorisation, other contacts turned
+/// out to be loaded; spheres two or three.
 constexpr int kMaxPasses = 24;
 /// An earlier factorisation that needs more is renewed.
-constexpr int kMaxStalePasses = 12;
+constexpr int kMaxStalePasses = 8;
 
 }  // namespace
 
@@ -30,7 +31,10 @@ ContactStage::ContactStage(const ImplicitEuler& system, LinearSolver* solver,
                [&](int node) { return system_->FreeRow(node) >= 0; });
 }
 
-void ContactStage::ForgetForces() { warm_starts_.clear(); }
+void ContactStage::ForgetForces() {
+  warm_starts_.clear();
+  candidates_of_ = kNoFactorization;
+}
 
 void ContactStage::Begin(const std::vector<RigidSurface>& surfaces, const Eigen::Matrix3Xd& x,
                          const Eigen::Matrix3Xd& v, const Eigen::VectorXd& b,
@@ -41,16 +45,24 @@ void ContactStage::Begin(const std::vector<RigidSurface>& surfaces, const Eigen:
   b_ = b;
   dv_c_ = dv_c;
   h_ = h;
-  const std::size_t num_pairs = static_cast<std::size_t>(x.cols()) * surfaces.size();
-  warm_starts_.resize(num_pairs, 0.0);
-  is_candidate_.assign(num_pairs, false);
-  candidates_.clear();
-  delassus_.Reset(solver_->factorization(), h);
+  warm_starts_.resize(static_cast<std::size_t>(x.cols()) * surfaces.size(), 0.0);
   narrow_phase_.Begin(surfaces, contact_nodes_, x);
-  AddCandidates(narrow_phase_.Select(
-      EndPositions(Eigen::VectorXd::Zero(b.size())), [&](const Contact& contact) {
-        return contact.gap < parameters_.alarm_distance || warm_starts_[PairIndex(contact)] > 0.0;
-      }));
+  FindCandidates();
+}
+
+void ContactStage::FindCandidates() {
+  if (candidates_of_ != solver_->generation()) {
+    candidates_of_ = solver_->generation();
+    candidates_.clear();
+    is_candidate_.assign(warm_starts_.size(), false);
+    delassus_.Reset(solver_->factorization(), h_);
+  }
+  const Eigen::VectorXd no_change = Eigen::VectorXd::Zero(b_.size());
+  AddCandidates(narrow_phase_.Select(EndPositions(no_change), [&](const Contact& contact) {
+    const std::size_t pair = PairIndex(contact);
+    return !is_candidate_[pair] &&
+           (contact.gap < parameters_.alarm_distance || warm_starts_[pair] > 0.0);
+  }));
 }
 
 std::size_t ContactStage::PairIndex(const Contact& contact) const {
@@ -58,7 +70,7 @@ std::size_t ContactStage::PairIndex(const Contact& contact) const {
          static_cast<std::size_t>(contact.surface);
 }
 
-/// Once a candidate, a pair stays one to the end of the step: W grows and never flickers.
+/// Once a candidate, a pair stays one while the factorisation lasts: W grows and never flickers.
 void ContactStage::AddCandidates(const std::vector<Contact>& contacts) {
   for (const Contact& contact : contacts) {
     const std::size_t pair = PairIndex(contact);
@@ -115,38 +127,66 @@ void ContactStage::SolveCandidates(Eigen::VectorXd* y, ContactSolution* solution
   delassus_.AddForces(lambda - applied, y);
 }
 
-Eigen::VectorXd ContactStage::Imbalance(const Eigen::VectorXd& impulse,
-                                        const Eigen::VectorXd& dv_f) const {
-  Eigen::VectorXd r = impulse - solver_->Times(dv_f);
-  for (const Candidate& candidate : candidates_) {
-    r.segment<3>(system_->FreeRow(candidate.contact.node)) +=
-        h_ * candidate.force * candidate.contact.normal;
+/// Makes motion and forces of the loaded contacts those of the true A.
+/// @returns false if that took too many iterations.
+bool ContactStage::Refine(const Eigen::VectorXd& impulse, ContactSolution* solution) {
+  Eigen::VectorXd lambda(static_cast<Eigen::Index>(candidates_.size()));
+  std::vector<Eigen::Index> held;
+  for (Eigen::Index i = 0; i < lambda.size(); ++i) {
+    lambda(i) = candidates_[static_cast<std::size_t>(i)].force;
+    if (lambda(i) > 0.0) held.push_back(i);
   }
-  return r;
+  const bool converged = solver_->Refine(impulse, delassus_, held, &solution->dv_f, &lambda);
+  for (Eigen::Index i = 0; i < lambda.size(); ++i) {
+    Candidate& candidate = candidates_[static_cast<std::size_t>(i)];
+    candidate.force = lambda(i);
+    warm_starts_[PairIndex(candidate.contact)] = lambda(i);
+  }
+  return converged;
 }
 
 bool ContactStage::Solve(const Eigen::Matrix3Xd& load, ContactSolution* solution,
                          StepTimings* timings) {
-  *solution = ContactSolution();
-  solution->dv_f.setZero(b_.size());
   const Eigen::VectorXd impulse = b_ + h_ * system_->GatherFree(load);
-  Eigen::VectorXd y;
-  {
-    const Stopwatch stopwatch(&timings->free_motion);
-    y = solver_->factorization().Eliminate(impulse);
+  if (!SolveWithFactorization(impulse, solution, timings)) {
+    const Stopwatch stopwatch(&timings->factorization);
+    if (!solver_->Renew()) return false;
+    FindCandidates();
+    SolveWithFactorization(impulse, solution, timings);
   }
+  Report(solution);
+  return true;
+}
+
+/// @returns false if the factorisation is too old for this.
+bool ContactStage::SolveWithFactorization(const Eigen::VectorXd& impulse, ContactSolution* solution,
+                                          StepTimings* timings) {
+  *solution = ContactSolution();
+  solution->dv_f.setZero(impulse.size());
   const Eigen::Matrix3Xd x_coasting = EndPositions(solution->dv_f);
   MeasureCandidates(
       [&](int node, int surface) { return narrow_phase_.Ahead(node, surface, x_coasting); });
-  for (Candidate& candidate : candidates_) candidate.applied = 0.0;
+  // An earlier factorisation errs by what it is asked to bridge: by less from the last forces on.
+  for (Candidate& candidate : candidates_) {
+    candidate.applied = solver_->current() ? 0.0 : candidate.force;
+  }
   for (int pass = 0; pass < kMaxPasses; ++pass) {
     UpdateDelassus(timings);
+    Eigen::VectorXd y = Eigen::VectorXd::Zero(impulse.size());
+    if (pass == 0) {
+      const Stopwatch stopwatch(&timings->free_motion);
+      y = solver_->factorization().Eliminate(WithAppliedForces(impulse));
+    }
     SolveCandidates(&y, solution, timings);
     {
       const Stopwatch stopwatch(&timings->correction);
-      solution->dv_f += solver_->factorization().BackSubstitute(y);
+      solution->dv_f += solver_->factorization().BackSubstitute(std::move(y));
+      if (!solver_->current() && (pass == kMaxStalePasses || !Refine(impulse, solution))) {
+        return false;
+      }
       solution->x_W = EndPositions(solution->dv_f);
     }
+
     const Stopwatch stopwatch(&timings->narrow_phase);
     MeasureEnd(solution);
     const double bound =
@@ -158,26 +198,22 @@ bool ContactStage::Solve(const Eigen::Matrix3Xd& load, ContactSolution* solution
         });
     const bool passed = std::any_of(missed.begin(), missed.end(),
                                     [&](const Contact& contact) { return contact.gap < -bound; });
-    bool balanced = true;
-    y.setZero();
-    if (!solver_->current()) {
-      const Eigen::VectorXd r = Imbalance(impulse, solution->dv_f);
-      balanced = r.norm() <= solver_->tolerance() * impulse.norm();
-      if (pass + 1 == kMaxStalePasses) {
-        if (!solver_->Renew()) return false;
-        delassus_.Reset(solver_->factorization(), h_);
-      }
-      y = solver_->factorization().Eliminate(r);
-    }
-    if (balanced && !passed && solution->error <= bound) break;
+    if (!passed && solution->error <= bound) break;
 
     MeasureCandidates(
         [&](int node, int surface) { return narrow_phase_.At(node, surface, solution->x_W); });
     for (Candidate& candidate : candidates_) candidate.applied = candidate.force;
     if (passed) AddCandidates(missed);
   }
-  Report(solution);
   return true;
+}
+
+Eigen::VectorXd ContactStage::WithAppliedForces(Eigen::VectorXd impulse) const {
+  for (const Candidate& candidate : candidates_) {
+    impulse.segment<3>(system_->FreeRow(candidate.contact.node)) +=
+        h_ * candidate.applied * candidate.contact.normal;
+  }
+  return impulse;
 }
 
 Eigen::Matrix3Xd ContactStage::EndPositions(const Eigen::VectorXd& dv_f) const {
@@ -196,11 +232,16 @@ void ContactStage::MeasureEnd(ContactSolution* solution) const {
   }
   solution->max_penetration = -deepest;
   solution->error = -deepest;
-  for (const Candidate& candidate : candidates_) {
-    if (candidate.force <= 0.0) continue;
-    const Contact end =
-        narrow_phase_.At(candidate.contact.node, candidate.contact.surface, solution->x_W);
-    solution->error = std::max(solution->error, std::abs(end.gap));
+  for (std::size_t i = 0; i < candidates_.size(); ++i) {
+    const auto& [contact, force, applied] = candidates_[i];
+    double error = 0.0;
+    if (force > 0.0) {
+      error = std::abs(narrow_phase_.At(contact.node, contact.surface, solution->x_W).gap);
+    } else {  // refined forces may pull
+      const auto diagonal = static_cast<Eigen::Index>(i);
+      error = -force * delassus_.W()(diagonal, diagonal);
+    }
+    solution->error = std::max(solution->error, error);
   }
 }
 
@@ -208,7 +249,7 @@ void ContactStage::Report(ContactSolution* solution) const {
   solution->num_candidates = static_cast<int>(candidates_.size());
   solution->lambda.setZero(x0_.cols());
   for (const Candidate& candidate : candidates_) {
-    solution->lambda(candidate.contact.node) += candidate.force;
+    solution->lambda(candidate.contact.node) += std::max(0.0, candidate.force);
   }
 }
 

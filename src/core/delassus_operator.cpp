@@ -9,6 +9,7 @@ using Eigen::Index;
 void DelassusOperator::Reset(const SparseCholesky& factorization, double h) {
   factorization_ = &factorization;
   h_ = h;
+  H_rows_.clear();
   batches_.clear();
   W_.resize(0, 0);
 }
@@ -29,6 +30,7 @@ void DelassusOperator::Append(const std::vector<NodeColumn>& H_rows) {
   }
   W_.bottomRightCorner(num_new, num_new) = h_ * h_ * Y_new.Gram();
   batches_.push_back(std::move(Y_new));
+  H_rows_.insert(H_rows_.end(), H_rows.begin(), H_rows.end());
 }
 
 Eigen::VectorXd DelassusOperator::GapChanges(const Eigen::VectorXd& y) const {
@@ -39,6 +41,13 @@ Eigen::VectorXd DelassusOperator::GapChanges(const Eigen::VectorXd& y) const {
     row += Y.num_columns();
   }
   return changes;
+}
+
+void DelassusOperator::AddImpulses(const Eigen::VectorXd& lambda, Eigen::VectorXd* b) const {
+  for (Index i = 0; i < num_contacts(); ++i) {
+    const NodeColumn& row = H_rows_[static_cast<std::size_t>(i)];
+    b->segment<3>(3 * row.node) += h_ * lambda(i) * row.value;
+  }
 }
 
 void DelassusOperator::AddForces(const Eigen::VectorXd& lambda, Eigen::VectorXd* y) const {

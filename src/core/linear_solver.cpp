@@ -1,57 +1,177 @@
 #include "vacuum_gripper_sim/core/linear_solver.h"
 
-namespace vacuum_gripper_sim {
+#include <Eigen/Cholesky>
+#include <cmath>
+#include <cstddef>
+#include <utility>
 
-bool LinearSolver::Compute(const Eigen::SparseMatrix<double>& A) {
-  A_ = &A;
-  iterations_ = 0;
-  factorizations_ = 0;
-  const bool reuse = parameters_.method == LinearSolverMethod::kConjugateGradient && usable_ &&
-                     age_ + 1 < parameters_.refactor_interval;
-  if (reuse) {
-    ++age_;
-    return true;
+#include "vacuum_gripper_sim/core/mcp_solver.h"
+
+namespace vacuum_gripper_sim {
+namespace {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+/// What taking a finished factorisation costs, in CG iterations: a new W.
+constexpr int kTakingCost = 3;
+
+/// The preconditioner of LinearSolver::Refine().
+class HeldPreconditioner {
+ public:
+  HeldPreconditioner(const SparseCholesky& factorization, const DelassusOperator& delassus,
+                     const std::vector<Index>& held)
+      : factorization_(&factorization), delassus_(&delassus), held_(&held) {
+    const auto size = static_cast<Index>(held.size());
+    if (size == 0) return;
+    Eigen::MatrixXd W_held(size, size);
+    for (Index j = 0; j < size; ++j) {
+      const Index column = held[static_cast<std::size_t>(j)];
+      for (Index i = j; i < size; ++i) {
+        W_held(i, j) = delassus.W()(held[static_cast<std::size_t>(i)], column);
+      }
+      W_held(j, j) *= 1.0 + kContactRegularization;
+    }
+    W_held_.compute(W_held);
   }
-  return Factorize();
+
+  /// @param[in,out] r Loses the part that held contacts take. @param[in,out] lambda Gains mu.
+  /// @returns z, which moves no held gap.
+  VectorXd Solve(VectorXd* r, VectorXd* lambda) const {
+    VectorXd y = factorization_->Eliminate(*r);
+    if (!held_->empty()) {
+      const VectorXd gaps = delassus_->GapChanges(y);
+      VectorXd forces(static_cast<Index>(held_->size()));
+      for (Index i = 0; i < forces.size(); ++i) {
+        forces(i) = -gaps((*held_)[static_cast<std::size_t>(i)]);
+      }
+      W_held_.solveInPlace(forces);
+      VectorXd mu = VectorXd::Zero(lambda->size());
+      for (Index i = 0; i < forces.size(); ++i) {
+        mu((*held_)[static_cast<std::size_t>(i)]) = forces(i);
+      }
+      delassus_->AddForces(mu, &y);
+      delassus_->AddImpulses(mu, r);
+      *lambda += mu;
+    }
+    return factorization_->BackSubstitute(std::move(y));
+  }
+
+ private:
+  const SparseCholesky* factorization_;
+  const DelassusOperator* delassus_;
+  const std::vector<Index>* held_;
+  Eigen::LLT<Eigen::MatrixXd> W_held_;
+};
+
+}  // namespace
+
+LinearSolver::LinearSolver(const LinearSolverParameters& parameters,
+                           const Eigen::SparseMatrix<double>& A)
+    : parameters_(parameters) {
+  factorization_.Analyze(A);
+  if (parameters.method == LinearSolverMethod::kAsynchronous) {
+    background_ = std::make_unique<BackgroundFactorization>(factorization_);
+  }
 }
 
-bool LinearSolver::Factorize() {
-  if (!factorization_.analyzed()) factorization_.Analyze(*A_);
+bool LinearSolver::Compute(const Eigen::SparseMatrix<double>& A) {
+  const bool worth_renewing = WornOut(parameters_.max_iterations);
+  const bool worth_taking = WornOut(kTakingCost);
+  A_ = &A;
+  ++step_;
+  iterations_since_ += iterations_;
+  iterations_ = 0;
+  factorizations_ = 0;
+
+  bool good = usable_;
+  if (parameters_.method == LinearSolverMethod::kDirect) good = false;
+  if (parameters_.method == LinearSolverMethod::kConjugateGradient) {
+    good = good && !worth_renewing && step_ - factorized_step_ < parameters_.refactor_interval;
+  }
+  if (parameters_.method == LinearSolverMethod::kAsynchronous) {
+    good = ExchangeWithBackground(worth_taking) && good;
+  }
+  return good || Renew();
+}
+
+/// Once the second thread has finished, takes the result, if that is worth it, and hands over this
+/// step's A. @returns false if it came upon an A that was not positive definite.
+bool LinearSolver::ExchangeWithBackground(bool worth_taking) {
+  using Status = BackgroundFactorization::Status;
+  bool positive_definite = true;
+  if (background_->status() == Status::kDone) {
+    SparseCholesky* const finished = background_->Finish();
+    positive_definite = finished != nullptr;
+    // A step that could not wait may have made a newer one.
+    if (positive_definite && worth_taking && background_step_ > factorized_step_) {
+      std::swap(factorization_, *finished);
+      factorized_step_ = background_step_;
+      iterations_since_ = 0;
+      ++generation_;
+    }
+  }
+  if (background_->status() == Status::kIdle) {
+    background_->Start(*A_);
+    background_step_ = step_;
+  }
+  return positive_definite;
+}
+
+/// Will more than the step's iterations be needed at the pace so far?
+bool LinearSolver::Hopeless(int iterations, double start, double now, double bound) const {
+  constexpr int kTrial = 2;
+  const int left = parameters_.max_iterations - iterations_;
+  if (iterations < kTrial) return left <= 0;
+  return now * std::pow(now / start, static_cast<double>(left) / iterations) > bound;
+}
+
+/// Did the last step take more iterations than the average step since the factorisation, another
+/// one and its cost, in iterations, included?
+bool LinearSolver::WornOut(int cost) const {
+  const std::int64_t num_steps = step_ - factorized_step_ + 1;
+  return iterations_ * num_steps > cost + iterations_since_ + iterations_;
+}
+
+bool LinearSolver::Renew() {
   usable_ = factorization_.Factorize(*A_);
-  age_ = 0;
+  factorized_step_ = step_;
+  iterations_since_ = 0;
+  ++generation_;
   ++factorizations_;
   return usable_;
 }
 
-bool LinearSolver::Solve(const Eigen::VectorXd& b, Eigen::VectorXd* y) {
-  if (parameters_.method == LinearSolverMethod::kDirect) {
-    *y = factorization_.Solve(b);
-    return true;
-  }
-  if (ConjugateGradient(b, y)) return true;
-  return !current() && Factorize() && ConjugateGradient(b, y);
+VectorXd LinearSolver::Residual(const VectorXd& b, const VectorXd& dv) const {
+  VectorXd r = b;
+  r.noalias() -= A_->selfadjointView<Eigen::Lower>() * dv;
+  return r;
 }
 
-bool LinearSolver::ConjugateGradient(const Eigen::VectorXd& b, Eigen::VectorXd* y) {
-  const auto A = A_->selfadjointView<Eigen::Lower>();
+bool LinearSolver::Refine(const VectorXd& b, const DelassusOperator& delassus,
+                          const std::vector<Index>& held, VectorXd* dv, VectorXd* lambda) {
   const double bound = parameters_.tolerance * b.norm();
-  *y = factorization_.Solve(b);
-  Eigen::VectorXd r = b - A * *y;
+  VectorXd r = Residual(b, *dv);
+  delassus.AddImpulses(*lambda, &r);
   if (r.norm() <= bound) return true;
-  Eigen::VectorXd z = factorization_.Solve(r);
-  Eigen::VectorXd p = z;
-  double rz = r.dot(z);
-  for (int i = 0; i < parameters_.max_iterations; ++i) {
+
+  const HeldPreconditioner preconditioner(factorization_, delassus, held);
+  VectorXd p = VectorXd::Zero(b.size());
+  VectorXd Ap(b.size());
+  double rz = 1.0;
+  const double start = r.norm();
+  for (int i = 0; !Hopeless(i, start, r.norm(), bound); ++i) {
     ++iterations_;
-    const Eigen::VectorXd Ap = A * p;
-    const double step = rz / p.dot(Ap);
-    *y += step * p;
-    r -= step * Ap;
+    const VectorXd z = preconditioner.Solve(&r, lambda);
     if (r.norm() <= bound) return true;
-    z = factorization_.Solve(r);
-    const double rz_next = r.dot(z);
-    p = z + (rz_next / rz) * p;
-    rz = rz_next;
+    const double rz_before = std::exchange(rz, r.dot(z));
+    p = z + (rz / rz_before) * p;
+    Ap.noalias() = A_->selfadjointView<Eigen::Lower>() * p;
+    const double pAp = p.dot(Ap);
+    if (!(pAp > 0.0)) return false;  // A is not positive definite
+    *dv += (rz / pAp) * p;
+    r -= (rz / pAp) * Ap;
+    if (r.norm() <= bound) return true;
   }
   return false;
 }

@@ -40,9 +40,6 @@ McpStatistics GaussSeidel(const Eigen::MatrixXd& W, const Eigen::VectorXd& delta
 /// The forces that close the gaps of the contacts in `active`, zero elsewhere.
 Eigen::VectorXd ForcesOfActive(const Eigen::MatrixXd& W, const Eigen::VectorXd& delta,
                                const std::vector<Eigen::Index>& active) {
-  // Two contacts in one direction at one node make W singular; this splits their force evenly and
-  // moves no gap by more than 1e-12 of itself.
-  constexpr double kRegularization = 1e-12;
   const auto size = static_cast<Eigen::Index>(active.size());
   Eigen::MatrixXd W_active(size, size);
   Eigen::VectorXd right(size);
@@ -52,7 +49,7 @@ Eigen::VectorXd ForcesOfActive(const Eigen::MatrixXd& W, const Eigen::VectorXd& 
     for (Eigen::Index i = j; i < size; ++i) {
       W_active(i, j) = W(active[static_cast<std::size_t>(i)], column);
     }
-    W_active(j, j) *= 1.0 + kRegularization;
+    W_active(j, j) *= 1.0 + kContactRegularization;
   }
   const Eigen::VectorXd forces = W_active.selfadjointView<Eigen::Lower>().llt().solve(right).eval();
   Eigen::VectorXd lambda = Eigen::VectorXd::Zero(delta.size());

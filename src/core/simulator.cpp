@@ -86,7 +86,7 @@ class Simulator::Implementation {
         rest_M_(MountFromRest(mesh_) * mesh_.nodes),
         body_(mesh_, parameters.material),
         system_(body_, mesh_.mount_nodes),
-        solver_(parameters.linear_solver),
+        solver_(parameters.linear_solver, system_.A_ff()),
         stage_(system_, &solver_, SurfaceNodes(mesh_), parameters.contact),
         suction_(cavity_, parameters_.seal, parameters.regulator,
                  parameters.material.young_modulus) {
@@ -215,7 +215,7 @@ bool Simulator::Implementation::Advance(const Command& command) {
   stage_.Begin(surfaces_, state_.x_W, state_.v_W, b, dv_c, h);
   if (!suction_.Solve(state_.x_W, command.pressure_setpoint, h, &stage_, &state_.grip, &solution,
                       timings)) {
-    return fail(StepOutcome::kUnconverged, "a linear solve of the contacts did not converge");
+    return fail(StepOutcome::kNonFinite, "A is not positive definite");
   }
   if (!solution.contact.x_W.allFinite()) {
     return fail(StepOutcome::kNonFinite, "the corrected motion is not finite");

@@ -5,7 +5,7 @@
 #include <Eigen/Geometry>
 
 #include "support/block_mesh.h"
-#include "vacuum_gripper_sim/core/linear_solver.h"
+#include "vacuum_gripper_sim/core/sparse_cholesky.h"
 
 namespace vacuum_gripper_sim {
 namespace {
@@ -51,10 +51,10 @@ TEST_P(ImplicitEulerTest, FreeFallGainsMomentum) {
   const double h = 0.01;
   system.Linearize(mesh_.nodes, Eigen::Matrix3Xd::Zero(3, mesh_.num_nodes()), h, {0.0, 2e-3},
                    kGravity);
-  LinearSolver solver(LinearSolverParameters{});
-  ASSERT_TRUE(solver.Compute(system.A_ff()));
-  Eigen::VectorXd dv;
-  ASSERT_TRUE(solver.Solve(system.FreeRightHandSide(Eigen::Matrix3Xd(3, 0)), &dv));
+  SparseCholesky cholesky;
+  cholesky.Analyze(system.A_ff());
+  ASSERT_TRUE(cholesky.Factorize(system.A_ff()));
+  const Eigen::VectorXd dv = cholesky.Solve(system.FreeRightHandSide(Eigen::Matrix3Xd(3, 0)));
   const Eigen::Matrix3Xd velocity = system.Scatter(dv, Eigen::Matrix3Xd(3, 0));
   const Eigen::Vector3d momentum = velocity * body_.masses();
   EXPECT_LT((momentum - mass_ * h * kGravity).norm(), 1e-12 * mass_);
@@ -63,7 +63,8 @@ TEST_P(ImplicitEulerTest, FreeFallGainsMomentum) {
 // At rest the clamp carries the weight; while it still swings, the balance holds with the momentum.
 TEST_P(ImplicitEulerTest, ReactionBalancesWeightAndMomentum) {
   ImplicitEuler system(body_, mesh_.mount_nodes);
-  LinearSolver solver(LinearSolverParameters{});
+  SparseCholesky cholesky;
+  cholesky.Analyze(system.A_ff());
   const double h = 0.01;
   Eigen::Matrix3Xd x = mesh_.nodes;
   Eigen::Matrix3Xd v = Eigen::Matrix3Xd::Zero(3, x.cols());
@@ -73,9 +74,8 @@ TEST_P(ImplicitEulerTest, ReactionBalancesWeightAndMomentum) {
   for (int step = 0; step < 200; ++step) {
     const Eigen::Vector3d momentum = v * body_.masses();
     system.Linearize(x, v, h, {0.0, 2e-3}, kGravity);
-    ASSERT_TRUE(solver.Compute(system.A_ff()));
-    Eigen::VectorXd dv;
-    ASSERT_TRUE(solver.Solve(system.FreeRightHandSide(held), &dv));
+    ASSERT_TRUE(cholesky.Factorize(system.A_ff()));
+    const Eigen::VectorXd dv = cholesky.Solve(system.FreeRightHandSide(held));
     reaction = system.ClampedReaction(dv, held).rowwise().sum();
     v += system.Scatter(dv, held);
     x += h * v;
@@ -113,59 +113,6 @@ TEST_P(ImplicitEulerTest, AnInvertedBlockRecovers) {
 
 INSTANTIATE_TEST_SUITE_P(Orders, ImplicitEulerTest, testing::Bool(),
                          [](const auto& info) { return info.param ? "Quadratic" : "Linear"; });
-
-TEST(LinearSolver, ConjugateGradientsReuseAnOldFactorisation) {
-  const TetMesh mesh = MakeBlock(3, 2, 2, {0.02, 0.01, 0.01}, false);
-  const ElasticBody body(mesh, {338000.0, 0.45, 1080.0});
-  ImplicitEuler system(body, mesh.mount_nodes);
-  LinearSolverParameters parameters;
-  parameters.method = LinearSolverMethod::kConjugateGradient;
-  parameters.refactor_interval = 3;
-  LinearSolver solver(parameters);
-  LinearSolver direct(LinearSolverParameters{});
-  Eigen::Matrix3Xd x = mesh.nodes;
-  const std::vector<bool> current{true, false, false, true, false};
-  for (const bool expected : current) {
-    x.row(2) += 0.05 * x.row(0);
-    system.Linearize(x, Eigen::Matrix3Xd::Zero(3, x.cols()), 0.01, {0.0, 2e-3}, kGravity);
-    ASSERT_TRUE(solver.Compute(system.A_ff()));
-    ASSERT_TRUE(direct.Compute(system.A_ff()));
-    EXPECT_EQ(solver.current(), expected);
-    EXPECT_EQ(solver.factorizations(), expected ? 1 : 0);
-    const Eigen::VectorXd b = Eigen::VectorXd::LinSpaced(system.A_ff().cols(), -1.0, 1.0);
-    Eigen::VectorXd by_cg;
-    Eigen::VectorXd by_factor;
-    ASSERT_TRUE(solver.Solve(b, &by_cg));
-    ASSERT_TRUE(direct.Solve(b, &by_factor));
-    EXPECT_LT((by_cg - by_factor).norm(), 1e-7 * by_factor.norm());
-    EXPECT_EQ(solver.iterations() > 0, !expected);
-  }
-}
-
-// Too few iterations allowed: it factorises anew rather than returning a wrong answer.
-TEST(LinearSolver, RefactorsWhenConjugateGradientsStall) {
-  const TetMesh mesh = MakeBlock(3, 2, 2, {0.02, 0.01, 0.01}, false);
-  const ElasticBody body(mesh, {338000.0, 0.45, 1080.0});
-  ImplicitEuler system(body, mesh.mount_nodes);
-  LinearSolverParameters parameters;
-  parameters.method = LinearSolverMethod::kConjugateGradient;
-  parameters.refactor_interval = 1000;
-  parameters.max_iterations = 1;
-  LinearSolver solver(parameters);
-  Eigen::Matrix3Xd x = mesh.nodes;
-  const Eigen::Matrix3Xd v = Eigen::Matrix3Xd::Zero(3, x.cols());
-  system.Linearize(x, v, 0.01, {0.0, 2e-3}, kGravity);
-  ASSERT_TRUE(solver.Compute(system.A_ff()));
-  x = (Eigen::AngleAxisd(1.0, Eigen::Vector3d::UnitY()).toRotationMatrix() * x).eval();
-  system.Linearize(x, v, 0.01, {0.0, 2e-3}, kGravity);
-  ASSERT_TRUE(solver.Compute(system.A_ff()));
-  EXPECT_FALSE(solver.current());
-  const Eigen::VectorXd b = Eigen::VectorXd::Ones(system.A_ff().cols());
-  Eigen::VectorXd y;
-  ASSERT_TRUE(solver.Solve(b, &y));
-  EXPECT_TRUE(solver.current());
-  EXPECT_LT((system.A_ff().selfadjointView<Eigen::Lower>() * y - b).norm(), 1e-9 * b.norm());
-}
 
 }  // namespace
 }  // namespace vacuum_gripper_sim

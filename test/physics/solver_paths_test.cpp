@@ -7,8 +7,9 @@ namespace vacuum_gripper_sim {
 namespace {
 
 /// Forces after press, hold and part of a pull.
-std::vector<double> ForcesOf(const SimulatorParameters& parameters) {
-  GripCycle cycle(LoadBell("linear_700"), parameters);
+std::vector<double> ForcesOf(const SimulatorParameters& parameters,
+                             const std::string& bell = "linear_700") {
+  GripCycle cycle(LoadBell(bell), parameters);
   std::vector<double> forces;
   cycle.Drive(kCupLength - 0.001, 0.01, 0.0, 0.1);
   forces.push_back(cycle.result().force_M.z());
@@ -44,12 +45,46 @@ TEST(SolverPaths, ThePapersGaussSeidelIsNear) {
   ExpectSame(ForcesOf(parameters), active_set, 0.01);
 }
 
+// Factorisations of every age up to 15 steps, deterministically.
 TEST(SolverPaths, ConjugateGradientsWithAnOldFactorisationAgreeWithTheDirectSolver) {
-  SimulatorParameters parameters = A20(0.01);
-  const std::vector<double> direct = ForcesOf(parameters);
-  parameters.linear_solver.method = LinearSolverMethod::kConjugateGradient;
-  parameters.linear_solver.refactor_interval = 5;
-  ExpectSame(ForcesOf(parameters), direct, 1e-4);
+  for (const char* const bell : {"linear_700", "quadratic_700"}) {
+    SimulatorParameters parameters = A20(0.01);
+    const std::vector<double> direct = ForcesOf(parameters, bell);
+    parameters.linear_solver.method = LinearSolverMethod::kConjugateGradient;
+    for (const int interval : {2, 5, 16}) {
+      parameters.linear_solver.refactor_interval = interval;
+      ExpectSame(ForcesOf(parameters, bell), direct, 1e-5);
+    }
+  }
+}
+
+// Of whatever age the second thread happens to deliver.
+TEST(SolverPaths, AsynchronousFactorisationsAgreeWithTheDirectSolver) {
+  for (const char* const bell : {"linear_700", "quadratic_700"}) {
+    SimulatorParameters parameters = A20(0.01);
+    const std::vector<double> direct = ForcesOf(parameters, bell);
+    parameters.linear_solver.method = LinearSolverMethod::kAsynchronous;
+    ExpectSame(ForcesOf(parameters, bell), direct, 1e-5);
+  }
+}
+
+// Curved: the normals turn while the factorisation stays.
+TEST(SolverPaths, AnOldFactorisationHoldsOnASphereToo) {
+  const auto force_of = [](LinearSolverMethod method) {
+    SimulatorParameters parameters = A20(0.01);
+    parameters.linear_solver.method = method;
+    GripCycle cycle(LoadBell("linear_700"), parameters);
+    RigidSurface ball{"ball", Sphere{0.15}};
+    ball.X_WS.translation().z() = -0.149;
+    cycle.simulator().SetSurfaces({ball});
+    cycle.Drive(kCupLength - 0.001, 0.01, 0.0, 0.2);
+    EXPECT_EQ(cycle.undone_steps, 0);
+    EXPECT_LE(cycle.max_penetration, 1e-6);
+    return cycle.result().force_M.z();
+  };
+  const double direct = force_of(LinearSolverMethod::kDirect);
+  EXPECT_LT(direct, -0.01);  // in contact
+  EXPECT_NEAR(force_of(LinearSolverMethod::kConjugateGradient), direct, 1e-5 * std::abs(direct));
 }
 
 TEST(SolverPaths, ReclassifyingWithinTheStepAgrees) {

@@ -10,7 +10,7 @@ namespace vacuum_gripper_sim {
  but types, Validate(SimulatorParameters) does the rest:
 
      gravity: [x, y, z]                                    # [m/s^2]
-     linear_solver: {method: direct|conjugate_gradient, tolerance, max_iterations,
+     linear_solver: {method: direct|conjugate_gradient|asynchronous, tolerance, max_iterations,
                      refactor_interval}
      contact: {solver: active_set|gauss_seidel, tolerance, acceptable_residual, max_iterations,
                relaxation, alarm_distance}

@@ -22,7 +22,8 @@ struct ContactSolution {
   std::vector<double> distance;  ///< Of each node to the nearest rigid surface, #nodes; +inf for
                                  ///< nodes inside the cup, and without surfaces. [m]
   double max_penetration{0.0};   ///< Over all free surface nodes, >= 0. [m]
-  double error{0.0};             ///< Largest penetration, or gap under a loaded contact. [m]
+  double error{0.0};             ///< Largest penetration, gap under a loaded contact, or way that a
+                                 ///< pulling one would let go. [m]
   int num_candidates{0};
   McpStatistics statistics;  ///< Iterations summed, residual of the last solve.
 };
@@ -41,12 +42,9 @@ struct ContactSolution {
      delta = gap(x_end) - W lambda,      0 <= delta + W lambda'  perp  lambda' >= 0.
 
  At the fixed point lambda' = lambda the true gaps are complementary to the forces, also on curved
- surfaces. With an earlier factorisation the motion is refined too: what it leaves of the balance
-
-     r = b + h load + h H^T lambda - A dv
-
- is the impulse of the next pass. On planes with the current factorisation a pass is exact for its
- candidates. */
+ surfaces. On planes with the current factorisation a pass is exact for its candidates; with an
+ earlier one each pass is refined by LinearSolver::Refine(), the loaded contacts held, and checked
+ for forces that pull too. */
 class ContactStage {
  public:
   /** @param surface_nodes Nodes of the cup's surface, ascending. The clamped ones are measured, but
@@ -54,7 +52,7 @@ class ContactStage {
   ContactStage(const ImplicitEuler& system, LinearSolver* solver, std::vector<int> surface_nodes,
                const ContactParameters& parameters);
 
-  /** Starts a step; forgets the candidates of the last one.
+  /** Starts a step; forgets the last one's candidates unless its factorisation stays.
    @param x,v State at the step's start, 3 by #nodes. @param b Right-hand side of the free motion
    A dv = b, 3 #free. [N s] @param dv_c Of the clamped nodes, 3 by #clamped. @param h Time step. [s]
  */
@@ -66,7 +64,7 @@ class ContactStage {
    @param load Force on every node, 3 by #nodes. [N]
    @param[out] solution
    @param[in,out] timings Adds to free_motion, narrow_phase, delassus, solve and correction.
-   @returns false if the solve failed. */
+   @returns false if A is not positive definite. */
   bool Solve(const Eigen::Matrix3Xd& load, ContactSolution* solution, StepTimings* timings);
 
   /// Forgets the warm start, as after a reset.
@@ -80,14 +78,17 @@ class ContactStage {
     double applied{0.0};  ///< The force that led to where the gap was measured. [N]
   };
 
+  void FindCandidates();
   Eigen::Matrix3Xd EndPositions(const Eigen::VectorXd& dv_f) const;
   void AddCandidates(const std::vector<Contact>& contacts);
-  bool IsCandidate(const Contact& contact) const;
   template <typename Measure>
   void MeasureCandidates(const Measure& measure);
   void UpdateDelassus(StepTimings* timings);
   void SolveCandidates(Eigen::VectorXd* y, ContactSolution* solution, StepTimings* timings);
-  Eigen::VectorXd Imbalance(const Eigen::VectorXd& impulse, const Eigen::VectorXd& dv_f) const;
+  bool SolveWithFactorization(const Eigen::VectorXd& impulse, ContactSolution* solution,
+                              StepTimings* timings);
+  bool Refine(const Eigen::VectorXd& impulse, ContactSolution* solution);
+  Eigen::VectorXd WithAppliedForces(Eigen::VectorXd impulse) const;
   void MeasureEnd(ContactSolution* solution) const;
   void Report(ContactSolution* solution) const;
   std::size_t PairIndex(const Contact& contact) const;
@@ -104,6 +105,10 @@ class ContactStage {
   Eigen::VectorXd b_;
   double h_{0.0};
   NarrowPhase narrow_phase_;
+
+  // Of the current factorisation.
+  static constexpr int kNoFactorization = -1;
+  int candidates_of_{kNoFactorization};  // its generation
   std::vector<Candidate> candidates_;
   std::vector<bool> is_candidate_;  // by pair
   DelassusOperator delassus_;       // of the first candidates or of all

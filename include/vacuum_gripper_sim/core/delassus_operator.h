@@ -27,12 +27,15 @@ class DelassusOperator {
   const Eigen::MatrixXd& W() const { return W_; }
   /// h H A^-1 b of an impulse b [N s] given as y = L^-1 P b. [m]
   Eigen::VectorXd GapChanges(const Eigen::VectorXd& y) const;
+  /// b += h H^T lambda. @param lambda Contact forces. [N] @param[in,out] b [N s]
+  void AddImpulses(const Eigen::VectorXd& lambda, Eigen::VectorXd* b) const;
   /// y += L^-1 P h H^T lambda. @param lambda Contact forces. [N]
   void AddForces(const Eigen::VectorXd& lambda, Eigen::VectorXd* y) const;
 
  private:
   const SparseCholesky* factorization_{nullptr};
   double h_{0.0};
+  std::vector<NodeColumn> H_rows_;
   std::vector<EliminatedColumns> batches_;  // Y, in the order of the contacts
   Eigen::MatrixXd W_;
 };

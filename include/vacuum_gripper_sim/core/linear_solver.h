@@ -2,58 +2,83 @@
 
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
+#include <cstdint>
+#include <memory>
+#include <vector>
 
+#include "vacuum_gripper_sim/core/background_factorization.h"
+#include "vacuum_gripper_sim/core/delassus_operator.h"
 #include "vacuum_gripper_sim/core/parameters.h"
 #include "vacuum_gripper_sim/core/sparse_cholesky.h"
 
 namespace vacuum_gripper_sim {
 
-/** Solves A y = b for the step's symmetric positive definite A.
+/** Keeps a factorisation for the step's symmetric positive definite A, and closes the difference
+ where it belongs to an earlier one.
 
- kDirect factorises every A. kConjugateGradient is the way of [Bernardin, Sec. III-A]: conjugate
- gradients with an earlier A's factorisation as preconditioner, renewed every `refactor_interval`
- steps and whenever CG does not reach its tolerance, so that the answer depends on the tolerance and
- not on the factorisation's age. */
+ kDirect factorises every A. The others are ways of [Bernardin, Sec. III-A]: an earlier A's
+ factorisation preconditions conjugate gradients, so that the answer depends on their tolerance and
+ not on the factorisation's age. kConjugateGradient renews it every `refactor_interval` steps, and
+ before that when a step's iterations cost more than the average step since, the factorisation's own
+ cost shared among them. kAsynchronous has a second thread factorise one A after the other and takes
+ over by the same rule; how old its factorisation is depends on the threads' speed. */
 class LinearSolver {
  public:
-  explicit LinearSolver(const LinearSolverParameters& parameters) : parameters_(parameters) {}
+  /// @param A Gives the sparsity of all matrices to come: lower triangle, compressed.
+  LinearSolver(const LinearSolverParameters& parameters, const Eigen::SparseMatrix<double>& A);
 
-  /** Takes the step's matrix. @param A Lower triangle; must outlive the solves. The sparsity of the
-   first call is that of all. @returns false if A is not positive definite. */
+  /** Takes the step's matrix. @param A Lower triangle; must outlive the solves.
+   @returns false if A is not positive definite. @throws what the second thread did. */
   bool Compute(const Eigen::SparseMatrix<double>& A);
-
   /// Factorises the A of the last Compute(). @returns false if it is not positive definite.
-  bool Renew() { return Factorize(); }
-  double tolerance() const { return parameters_.tolerance; }
+  bool Renew();
 
-  /// Solves A y = b. With CG, refactors once if the tolerance is not met.
-  /// @returns false if it is not met even then.
-  bool Solve(const Eigen::VectorXd& b, Eigen::VectorXd* y);
-
-  /// A x, with the A of the last Compute().
-  Eigen::VectorXd Times(const Eigen::VectorXd& x) const {
-    return A_->selfadjointView<Eigen::Lower>() * x;
-  }
-
-  /// The newest factorisation: of A with kDirect, of this or an earlier A with CG.
+  /// The newest factorisation: of the last A or of an earlier one.
   const SparseCholesky& factorization() const { return factorization_; }
+  /// Tells one factorisation from the next.
+  int generation() const { return generation_; }
   /// Does factorization() belong to the A of the last Compute()?
-  bool current() const { return age_ == 0; }
+  bool current() const { return factorized_step_ == step_; }
+
+  /// b - A dv. @param b [N s] @param dv [m/s]
+  Eigen::VectorXd Residual(const Eigen::VectorXd& b, const Eigen::VectorXd& dv) const;
+
+  /** Solves A dv = b + h H^T lambda where `held` contacts keep their gaps and only they change
+   their forces: conjugate gradients among the motions that move no held gap, preconditioned by the
+   factorisation A_0 under the same constraint ([Gould 2001], Algorithms 2.1 and 6.2),
+
+       ( A_0  -h H^T ) (z )   (r)
+       ( h H     0   ) (mu) = (0),   r := r + h H^T mu.
+
+   @param delassus Of factorization(). @param held Indices of its contacts.
+   @param[in,out] dv Motion. [m/s] @param[in,out] lambda A force for every contact. [N]
+   @returns false if |r| <= tolerance |b| is out of reach of what is left of the step's iterations.
+
+   [Gould 2001] N. I. M. Gould, M. E. Hribar, J. Nocedal, "On the solution of equality constrained
+   quadratic programming problems arising in optimization", SIAM J. Sci. Comput. 23(4). */
+  bool Refine(const Eigen::VectorXd& b, const DelassusOperator& delassus,
+              const std::vector<Eigen::Index>& held, Eigen::VectorXd* dv, Eigen::VectorXd* lambda);
 
   int iterations() const { return iterations_; }          ///< CG, since Compute().
-  int factorizations() const { return factorizations_; }  ///< Since Compute().
+  int factorizations() const { return factorizations_; }  ///< On this thread, since Compute().
 
  private:
-  bool Factorize();
-  bool ConjugateGradient(const Eigen::VectorXd& b, Eigen::VectorXd* y);
+  bool Hopeless(int iterations, double start, double now, double bound) const;
+  bool WornOut(int cost) const;
+  bool ExchangeWithBackground(bool worth_taking);
 
   LinearSolverParameters parameters_;
   const Eigen::SparseMatrix<double>* A_{nullptr};
   SparseCholesky factorization_;
   bool usable_{false};  // does factorization_ hold a factor?
-  int age_{0};          // steps since the factorisation
+  int generation_{0};
+  std::int64_t step_{0};
+  std::int64_t factorized_step_{0};   // whose A factorization_ belongs to
+  std::int64_t background_step_{0};   // whose A the second thread has
+  std::int64_t iterations_since_{0};  // factorized_step_, without the current step
   int iterations_{0};
   int factorizations_{0};
+  std::unique_ptr<BackgroundFactorization> background_;  // kAsynchronous only
 };
 
 }  // namespace vacuum_gripper_sim

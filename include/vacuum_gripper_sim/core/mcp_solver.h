@@ -13,6 +13,10 @@ struct McpStatistics {
   double residual{0.0};  ///< max_i |min(delta_i, lambda_i W_ii)|, 0 at a solution. [m]
 };
 
+/// Two contacts in one direction at one node make W singular. A diagonal larger by this share
+/// splits their force evenly and moves no gap by more than this share of itself.
+inline constexpr double kContactRegularization = 1e-12;
+
 /** Solves the contact part of the mixed complementarity problem of [Bernardin, Sec. III-C], the
  pressure being known and part of delta:
 

@@ -22,14 +22,15 @@ struct RayleighDamping {
   double stiffness{2e-3};  ///< beta [s] >= 0
 };
 
-enum class LinearSolverMethod { kDirect, kConjugateGradient };
+enum class LinearSolverMethod { kDirect, kConjugateGradient, kAsynchronous };
 
 /// How the sparse systems with A are solved.
 struct LinearSolverParameters {
   LinearSolverMethod method{LinearSolverMethod::kDirect};
-  double tolerance{1e-10};   ///< CG: bound on |r| / |b|. [-] > 0
-  int max_iterations{200};   ///< CG: iterations of one solve. >= 1
-  int refactor_interval{1};  ///< CG: steps that share one factorisation as preconditioner. >= 1
+  double tolerance{1e-6};     ///< CG: bound on |r| / |b|. [-] > 0
+  int max_iterations{10};     ///< CG: a step that needs more factorises its A after all; about what
+                              ///< that costs, in iterations. >= 1
+  int refactor_interval{10};  ///< kConjugateGradient: steps that share a factorisation. >= 1
 };
 
 enum class ContactSolverMethod { kGaussSeidel, kActiveSet };
@@ -41,7 +42,7 @@ struct ContactParameters {
   double acceptable_residual{1e-6};  ///< A step that ends above this is undone. [m] >= tolerance
   int max_iterations{100};           ///< Gauss-Seidel sweeps or active-set changes. >= 1
   double relaxation{1.0};            ///< Gauss-Seidel: over-relaxation factor, in (0, 2). [-]
-  double alarm_distance{5e-5};       ///< Nodes that would end a step nearer to a surface than this
+  double alarm_distance{2e-5};       ///< Nodes that would end a step nearer to a surface than this
                                 ///< at their velocity, and those under load, are candidates; where
                                 ///< others pass it, all that come as near are added. [m] > 0
 };

@@ -33,12 +33,12 @@ enum class StepOutcome {
 struct StepTimings {
   double assembly{0.0};        ///< Internal forces, stiffness, A and b.
   double factorization{0.0};   ///< Of A.
-  double free_motion{0.0};     ///< A dv = b.
+  double free_motion{0.0};     ///< First half of A dv = b, with the load.
   double narrow_phase{0.0};    ///< Distances to the surfaces.
   double classification{0.0};  ///< The classifier.
   double delassus{0.0};        ///< W = h^2 H A^-1 H^T.
   double solve{0.0};           ///< The mixed complementarity problem.
-  double correction{0.0};      ///< dv += h A^-1 H^T lambda, and the wrench.
+  double correction{0.0};      ///< Second half with the forces, refinement, and the wrench.
   double total{0.0};
 };
 
@@ -72,7 +72,7 @@ struct StepResult {
   int solver_iterations{0};     ///< Of the last contact solve.
   double solver_residual{0.0};  ///< max_i |min(delta_i, lambda_i W_ii)|. [m]
   int linear_iterations{0};     ///< CG iterations of the step; 0 with the direct solver.
-  int factorizations{0};        ///< Of A in this step.
+  int factorizations{0};        ///< Of A in this step, on its own thread.
   StepTimings timings;
 };
 

@@ -55,7 +55,7 @@ class Suction {
    @param setpoint Gauge pressure wanted. [Pa] @param h Time step. [s]
    @param stage Begun with the step's free motion.
    @param[in,out] state @param[out] solution @param[in,out] timings
-   @returns false if a linear solve failed. */
+   @returns false if A is not positive definite. */
   bool Solve(const Eigen::Matrix3Xd& x_W, double setpoint, double h, ContactStage* stage,
              GripState* state, SuctionSolution* solution, StepTimings* timings);
 

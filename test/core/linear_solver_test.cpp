@@ -1,0 +1,205 @@
+#include "vacuum_gripper_sim/core/linear_solver.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+#include <thread>
+
+#include "support/block_mesh.h"
+#include "vacuum_gripper_sim/core/implicit_euler.h"
+
+namespace vacuum_gripper_sim {
+namespace {
+
+constexpr double kTimeStep = 0.01;  // s
+
+/// The matrices of a block that bends on from step to step.
+class BendingBlock {
+ public:
+  const Eigen::SparseMatrix<double>& A() const { return system_.A_ff(); }
+  Eigen::MatrixXd Dense() const {
+    return Eigen::MatrixXd(Eigen::MatrixXd(A()).selfadjointView<Eigen::Lower>());
+  }
+  void Bend(double slope) {
+    x_.row(2) += slope * x_.row(0);
+    Linearize();
+  }
+  void Turn(double angle) {
+    x_ = (Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitY()).toRotationMatrix() * x_).eval();
+    Linearize();
+  }
+  void Linearize() {
+    system_.Linearize(x_, Eigen::Matrix3Xd::Zero(3, x_.cols()), kTimeStep, {0.0, 2e-3},
+                      Eigen::Vector3d::Zero());
+  }
+
+ private:
+  const TetMesh mesh_ = MakeBlock(4, 3, 2, {0.02, 0.01, 0.01}, false);
+  const ElasticBody body_{mesh_, {338000.0, 0.45, 1080.0}};
+  ImplicitEuler system_{body_, mesh_.mount_nodes};
+  Eigen::Matrix3Xd x_ = mesh_.nodes;
+};
+
+LinearSolverParameters With(LinearSolverMethod method, int refactor_interval = 3) {
+  LinearSolverParameters parameters;
+  parameters.method = method;
+  parameters.tolerance = 1e-10;
+  parameters.max_iterations = 50;
+  parameters.refactor_interval = refactor_interval;
+  return parameters;
+}
+
+/// Solves as a step does: with the factorisation at hand, then refined if that is an old one.
+Eigen::VectorXd Solve(const Eigen::VectorXd& b, LinearSolver* solver) {
+  DelassusOperator nothing;
+  nothing.Reset(solver->factorization(), kTimeStep);
+  Eigen::VectorXd dv = solver->factorization().Solve(b);
+  Eigen::VectorXd no_forces(0);
+  if (!solver->current()) {
+    EXPECT_TRUE(solver->Refine(b, nothing, {}, &dv, &no_forces));
+  }
+  return dv;
+}
+
+TEST(LinearSolver, ReusesAFactorisationForSomeSteps) {
+  BendingBlock block;
+  block.Linearize();
+  LinearSolver solver(With(LinearSolverMethod::kConjugateGradient), block.A());
+  const Eigen::VectorXd b = Eigen::VectorXd::LinSpaced(block.A().cols(), -1.0, 1.0);
+  int generation = 0;
+  for (const bool expected : {true, false, false, true, false}) {
+    block.Bend(0.02);
+    ASSERT_TRUE(solver.Compute(block.A()));
+    EXPECT_EQ(solver.current(), expected);
+    EXPECT_EQ(solver.factorizations(), expected ? 1 : 0);
+    generation += expected ? 1 : 0;
+    EXPECT_EQ(solver.generation(), generation);
+    const Eigen::VectorXd dv = Solve(b, &solver);
+    EXPECT_LE(solver.Residual(b, dv).norm(), 1e-10 * b.norm());
+    EXPECT_LT((block.Dense() * dv - b).norm(), 2e-10 * b.norm());
+    EXPECT_EQ(solver.iterations() > 0, !expected);
+  }
+}
+
+// Against the dense saddle-point system, from forces and a motion that keep the held gaps.
+TEST(LinearSolver, HeldContactsKeepTheirGaps) {
+  BendingBlock block;
+  block.Linearize();
+  LinearSolver solver(With(LinearSolverMethod::kConjugateGradient, 10), block.A());
+  ASSERT_TRUE(solver.Compute(block.A()));
+  block.Bend(0.03);
+  ASSERT_TRUE(solver.Compute(block.A()));
+  ASSERT_FALSE(solver.current());
+
+  const auto size = block.A().cols();
+  const std::vector<int> nodes{3, 11, 20, 37};
+  const std::vector<Eigen::Index> held{0, 2, 3};
+  std::vector<NodeColumn> H_rows;
+  Eigen::MatrixXd hH_held = Eigen::MatrixXd::Zero(3, size);
+  for (const int node : nodes) H_rows.push_back({node, Eigen::Vector3d(0.1, 0.2, 1.0)});
+  for (Eigen::Index i = 0; i < 3; ++i) {
+    const NodeColumn& row = H_rows[static_cast<std::size_t>(held[static_cast<std::size_t>(i)])];
+    hH_held.block<1, 3>(i, 3 * row.node) = kTimeStep * row.value.transpose();
+  }
+  DelassusOperator delassus;
+  delassus.Reset(solver.factorization(), kTimeStep);
+  delassus.Append({H_rows[0], H_rows[1]});
+  delassus.Append({H_rows[2], H_rows[3]});  // in two batches
+
+  Eigen::VectorXd b = Eigen::VectorXd::LinSpaced(size, -1e-3, 1e-3);
+  Eigen::VectorXd dv = Eigen::VectorXd::Zero(size);
+  Eigen::VectorXd lambda = Eigen::VectorXd::Zero(4);
+  lambda(1) = 0.5;  // not held: a given force
+  ASSERT_TRUE(solver.Refine(b, delassus, held, &dv, &lambda));
+  EXPECT_EQ(lambda(1), 0.5);
+  EXPECT_GT(solver.iterations(), 1);
+
+  b.segment<3>(3 * nodes[1]) += kTimeStep * 0.5 * H_rows[1].value;
+  Eigen::MatrixXd saddle = Eigen::MatrixXd::Zero(size + 3, size + 3);
+  saddle.topLeftCorner(size, size) = block.Dense();
+  saddle.topRightCorner(size, 3) = -hH_held.transpose();
+  saddle.bottomLeftCorner(3, size) = hH_held;
+  Eigen::VectorXd right = Eigen::VectorXd::Zero(size + 3);
+  right.head(size) = b;
+  const Eigen::VectorXd expected = saddle.fullPivLu().solve(right);
+  EXPECT_LT((dv - expected.head(size)).norm(), 1e-7 * expected.head(size).norm());
+  for (Eigen::Index i = 0; i < 3; ++i) {
+    EXPECT_NEAR(lambda(held[static_cast<std::size_t>(i)]), expected(size + i),
+                1e-7 * expected.tail(3).norm());
+  }
+}
+
+// Too few iterations allowed: it says so, and a new factorisation makes it good.
+TEST(LinearSolver, GivesUpWhereAFactorisationIsTooOld) {
+  BendingBlock block;
+  block.Linearize();
+  LinearSolverParameters parameters = With(LinearSolverMethod::kConjugateGradient, 1000);
+  parameters.max_iterations = 3;
+  LinearSolver solver(parameters, block.A());
+  ASSERT_TRUE(solver.Compute(block.A()));
+  block.Turn(1.0);
+  ASSERT_TRUE(solver.Compute(block.A()));
+  ASSERT_FALSE(solver.current());
+  const Eigen::VectorXd b = Eigen::VectorXd::Ones(block.A().cols());
+  DelassusOperator nothing;
+  nothing.Reset(solver.factorization(), kTimeStep);
+  Eigen::VectorXd dv = Eigen::VectorXd::Zero(b.size());
+  Eigen::VectorXd no_forces(0);
+  EXPECT_FALSE(solver.Refine(b, nothing, {}, &dv, &no_forces));
+  EXPECT_LE(solver.iterations(), 3);
+  ASSERT_TRUE(solver.Renew());
+  EXPECT_TRUE(solver.current());
+  EXPECT_LT((block.Dense() * Solve(b, &solver) - b).norm(), 1e-9 * b.norm());
+}
+
+TEST(LinearSolver, TakesWhatTheSecondThreadFinished) {
+  BendingBlock block;
+  block.Linearize();
+  LinearSolver solver(With(LinearSolverMethod::kAsynchronous), block.A());
+  const Eigen::VectorXd b = Eigen::VectorXd::LinSpaced(block.A().cols(), -1.0, 1.0);
+  ASSERT_TRUE(solver.Compute(block.A()));
+  EXPECT_TRUE(solver.current());  // nothing to wait for yet: its own
+  for (double slope = 0.05; solver.generation() < 4; slope = -slope) {
+    block.Bend(slope);
+    ASSERT_TRUE(solver.Compute(block.A()));
+    EXPECT_FALSE(solver.current());
+    EXPECT_EQ(solver.factorizations(), 0);
+    EXPECT_LT((block.Dense() * Solve(b, &solver) - b).norm(), 2e-10 * b.norm());
+    std::this_thread::yield();
+  }
+}
+
+BackgroundFactorization::Status WaitFor(const BackgroundFactorization& background) {
+  while (background.status() == BackgroundFactorization::Status::kBusy) std::this_thread::yield();
+  return background.status();
+}
+
+TEST(BackgroundFactorization, DoesWhatThisThreadWould) {
+  BendingBlock block;
+  block.Linearize();
+  SparseCholesky here;
+  here.Analyze(block.A());
+  BackgroundFactorization background(here);
+  EXPECT_EQ(background.status(), BackgroundFactorization::Status::kIdle);
+  const Eigen::VectorXd b = Eigen::VectorXd::Ones(block.A().cols());
+  for (int round = 0; round < 3; ++round) {
+    block.Bend(0.1);
+    background.Start(block.A());
+    ASSERT_TRUE(here.Factorize(block.A()));
+    ASSERT_EQ(WaitFor(background), BackgroundFactorization::Status::kDone);
+    const SparseCholesky* const there = background.Finish();
+    ASSERT_NE(there, nullptr);
+    EXPECT_EQ(there->Solve(b), here.Solve(b));
+    EXPECT_EQ(background.status(), BackgroundFactorization::Status::kIdle);
+  }
+  Eigen::SparseMatrix<double> indefinite = block.A();
+  indefinite.coeffRef(7, 7) = -1.0;
+  background.Start(indefinite);
+  WaitFor(background);
+  EXPECT_EQ(background.Finish(), nullptr);
+  background.Start(block.A());  // it goes on; and ends while it works
+}
+
+}  // namespace
+}  // namespace vacuum_gripper_sim
