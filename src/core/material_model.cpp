@@ -98,8 +98,8 @@ Eigen::Matrix3d NeoHookeanLaw::Stress(const Eigen::Matrix3d& F, Tangent* tangent
   const Eigen::Matrix3d& V = stretch.eigenvectors();
   const Eigen::Vector3d t = p * s;
 
-  // A mode with a negative eigenvalue, twice added, turns its sign. First the twists (i, j) - (j, i)
-  // and flips (i, j) + (j, i) about axis k, whose squared norm is 2 here.
+  // A mode with a negative eigenvalue, twice added, turns its sign. First the twists (i, j) - (j,
+  // i) and flips (i, j) + (j, i) about axis k, whose squared norm is 2 here.
   for (int k = 0; k < 3; ++k) {
     const double eigenvalue = mu - std::abs(t(k));
     if (eigenvalue >= 0.0) continue;

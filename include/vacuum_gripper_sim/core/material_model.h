@@ -59,9 +59,9 @@ class CorotationalLaw {
  The exact tangent is indefinite wherever the material is compressed. That of this class has the
  absolute values of its eigenvalues [Chen 2024], mode by mode in the principal frame
  F = U diag(s) V^T of [Smith 2018, Sec. 4]: for the three pairs of off-diagonal entries these are
- mu -/+ t_k (twist and flip) with t_k = (mu - kappa (J - 1)) s_k; the diagonal entries leave a 3 by 3
- matrix. Negative eigenvalues set to zero instead leave directions without stiffness while the volume
- is off by mu / kappa: at nu = 0.499 a single linearised step per time step then runs away.
+ mu -/+ t_k (twist and flip) with t_k = (mu - kappa (J - 1)) s_k; the diagonal entries leave a 3 by
+ 3 matrix. Negative eigenvalues set to zero instead leave directions without stiffness while the
+ volume is off by mu / kappa: at nu = 0.499 a single linearised step per time step then runs away.
 
  Against a neo-Hookean law of the split form mu/2 (J^(-2/3) |F|^2 - 3) + K/2 (J - 1)^2 only terms in
  J - 1 differ; both tend to the same incompressible law.
