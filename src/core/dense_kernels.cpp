@@ -93,9 +93,10 @@ template <Write kWrite>
 void Product(bool lower, Index rows, Index columns, Index depth, const double* A, Index stride_A,
              const double* B, Index stride_B, double* C, Index stride_C) {
   ForColumnTiles(columns, [&](Index column, auto num_columns) {
+    constexpr int kColumns = num_columns;
     ForRowTiles(lower ? column : 0, rows, [&](Index row, auto num_rows) {
-      Tile<num_rows, num_columns, kWrite>(depth, A + row, stride_A, B + column, stride_B,
-                                          C + row + column * stride_C, stride_C);
+      Tile<num_rows, kColumns, kWrite>(depth, A + row, stride_A, B + column, stride_B,
+                                       C + row + column * stride_C, stride_C);
     });
   });
 }
@@ -115,17 +116,18 @@ void NegativeProduct(bool lower, Index rows, Index columns, Index depth, const d
 bool FactorizeNarrowPanel(Index rows, Index columns, double* F, Index stride) {
   bool positive = true;
   ForColumnTiles(columns, [&](Index column, auto num_columns) {
+    constexpr int kColumns = num_columns;
     double* const target = F + column * stride;
     ForRowTiles(column, rows, [&](Index row, auto num_rows) {
-      Tile<num_rows, num_columns, Write::kSubtract>(column, F + row, stride, F + column, stride,
-                                                    target + row, stride);
+      Tile<num_rows, kColumns, Write::kSubtract>(column, F + row, stride, F + column, stride,
+                                                 target + row, stride);
     });
-    double inverse_diagonal[num_columns];
-    positive = positive && FactorizeTile<num_columns>(target + column, stride, inverse_diagonal);
+    double inverse_diagonal[kColumns];
+    positive = positive && FactorizeTile<kColumns>(target + column, stride, inverse_diagonal);
     if (!positive) return;
-    ForRowTiles(column + num_columns, rows, [&](Index row, auto num_rows) {
-      SolveTile<num_rows, num_columns>(target + column, stride, inverse_diagonal, target + row,
-                                       stride);
+    ForRowTiles(column + kColumns, rows, [&](Index row, auto num_rows) {
+      SolveTile<num_rows, kColumns>(target + column, stride, inverse_diagonal, target + row,
+                                    stride);
     });
   });
   return positive;
@@ -134,16 +136,17 @@ bool FactorizeNarrowPanel(Index rows, Index columns, double* F, Index stride) {
 /// SolveOnTheRight() of a few columns.
 void SolveNarrow(Index rows, Index columns, const double* L, Index stride_L, double* X) {
   ForColumnTiles(columns, [&](Index column, auto num_columns) {
-    double inverse_diagonal[num_columns];
-    for (int j = 0; j < num_columns; ++j) {
+    constexpr int kColumns = num_columns;
+    double inverse_diagonal[kColumns];
+    for (int j = 0; j < kColumns; ++j) {
       inverse_diagonal[j] = 1.0 / L[(column + j) * (stride_L + 1)];
     }
     ForRowTiles(0, rows, [&](Index row, auto num_rows) {
       double* const target = X + row + column * rows;
-      Tile<num_rows, num_columns, Write::kSubtract>(column, X + row, rows, L + column, stride_L,
-                                                    target, rows);
-      SolveTile<num_rows, num_columns>(L + column * (stride_L + 1), stride_L, inverse_diagonal,
-                                       target, rows);
+      Tile<num_rows, kColumns, Write::kSubtract>(column, X + row, rows, L + column, stride_L,
+                                                 target, rows);
+      SolveTile<num_rows, kColumns>(L + column * (stride_L + 1), stride_L, inverse_diagonal, target,
+                                    rows);
     });
   });
 }

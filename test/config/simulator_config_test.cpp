@@ -63,5 +63,14 @@ TEST(SimulatorConfig, RefusalsNameTheDottedPath) {
   EXPECT_TRUE(Contains(ErrorOf([] { Read("regulator: -6000.0"); }), "regulator = -6000.0"));
 }
 
+TEST(SimulatorConfig, KnowsEveryLinearSolver) {
+  using Method = LinearSolverMethod;
+  EXPECT_EQ(Read("linear_solver: {method: direct}").linear_solver.method, Method::kDirect);
+  EXPECT_EQ(Read("linear_solver: {method: conjugate_gradient}").linear_solver.method,
+            Method::kConjugateGradient);
+  EXPECT_EQ(Read("linear_solver: {method: asynchronous}").linear_solver.method,
+            Method::kAsynchronous);
+}
+
 }  // namespace
 }  // namespace vacuum_gripper_sim
