@@ -134,7 +134,7 @@ TEST_F(ScenarioFile, RefusalsNameFileAndKey) {
            {"stop_after_loss: -0.1", "stop_after_loss = -0.1"},
            {"stop_after_loss: soon", "stop_after_loss = soon"},
            {"gravity: [0.0, 0.0]", "gravity = [0.0, 0.0]"},
-           {"seal: {close_gap: 0.1}", "seal.open_gap"},
+           {"seal: {close_gap: 0.1, open_gap: 0.05}", "seal.open_gap"},
            {"regulator: {min_pressure: -5000.0, default_pressure: -1.0}",
             "timeline.1.pressure_setpoint = -6000.0"},
            {"surfaces: {}", "surfaces = {}"},
