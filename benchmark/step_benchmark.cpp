@@ -156,28 +156,30 @@ void TimePaper(benchmark::State& state, const char* bell, Situation situation,
 }
 
 void RegisterAll() {
+  const auto add = [](const std::string& title, int num_steps, const auto& function) {
+    benchmark::RegisterBenchmark(title.c_str(), function)
+        ->Iterations(num_steps)
+        ->Unit(benchmark::kMillisecond);
+  };
   for (const Bell& bell : kBells) {
-    for (const auto& [situation, situation_name] : kSituations) {
-      const std::string title = std::string(bell.name) + "/" + situation_name + "/";
-      for (const auto& [method, method_name] : kMethods) {
-        benchmark::RegisterBenchmark((title + method_name).c_str(), TimeSteps, bell.name, situation,
-                                     method)
-            ->Iterations(situation == Situation::kCycle ? std::max(bell.num_steps, kStepsOfCycle)
-                                                        : bell.num_steps)
-            ->Unit(benchmark::kMillisecond);
+    const char* const name = bell.name;
+    for (const auto& named : kSituations) {
+      const Situation situation = named.situation;
+      const bool cycle = situation == Situation::kCycle;
+      const std::string title = std::string(name) + "/" + named.name + "/";
+      for (const auto& solver : kMethods) {
+        const LinearSolverMethod method = solver.method;
+        add(title + solver.name, cycle ? std::max(bell.num_steps, kStepsOfCycle) : bell.num_steps,
+            [=](benchmark::State& state) { TimeSteps(state, name, situation, method); });
       }
-      if (situation == Situation::kCycle) continue;
-      const auto register_paper = [&](const char* method, PaperPipeline::Points points) {
-        benchmark::RegisterBenchmark((title + method).c_str(), TimePaper, bell.name, situation,
-                                     points)
-            ->Iterations(bell.num_paper_steps)
-            ->Unit(benchmark::kMillisecond);
+      if (cycle) continue;
+      const auto add_paper = [&](const char* method, PaperPipeline::Points points) {
+        add(title + method, bell.num_paper_steps,
+            [=](benchmark::State& state) { TimePaper(state, name, situation, points); });
       };
-      register_paper("paper", PaperPipeline::Points::kNodesAndEdges);
+      add_paper("paper", PaperPipeline::Points::kNodesAndEdges);
       // Quadratic elements have a node on every edge: both are the same.
-      if (std::string(bell.name).find("linear") == 0) {
-        register_paper("paper_nodes", PaperPipeline::Points::kNodes);
-      }
+      if (title.find("linear") == 0) add_paper("paper_nodes", PaperPipeline::Points::kNodes);
     }
   }
 }
