@@ -1,141 +1,206 @@
-// Whole steps of the default cups in the states of a grip, with the time of every phase beside the
-// paper's. Thread-CPU time is the benchmark's; the phases are wall time. `yardsticks` is the mean
-// step in units of a dense matrix product timed right before and after, because machines differ.
+// Whole steps of the bells in the situations of a grip, by every linear solver, and the same steps
+// by the paper's own pipeline. scripts/benchmark makes tables of it; names of the cases are
+// mesh/situation/method, all times are in milliseconds.
 #include <benchmark/benchmark.h>
-#include <time.h>
 
 #include <algorithm>
-#include <numeric>
+#include <cstdio>
 #include <string>
+#include <utility>
 #include <vector>
 
-#include "physics/grip_cycle.h"
+#include "grip_situation.h"
+#include "paper_pipeline.h"
+#include "step_statistics.h"
+#include "thread_clock.h"
+#include "vacuum_gripper_sim/core/stopwatch.h"
 
 namespace vacuum_gripper_sim {
 namespace {
 
-enum class Phase { kAir, kPressed, kSealed, kPulling };
-
-struct NamedPhase {
+struct Bell {
   const char* name;
-  Phase phase;
-  double setpoint;  // Pa
+  int num_steps;        // timed, in a situation that lasts
+  int num_paper_steps;  // they take up to seconds
 };
-constexpr NamedPhase kPhases[] = {{"air", Phase::kAir, 0.0},
-                                  {"pressed", Phase::kPressed, 0.0},
-                                  {"sealed", Phase::kSealed, -6000.0},
-                                  {"pulling", Phase::kPulling, -6000.0}};
+constexpr Bell kBells[] = {{"linear_700", 1000, 20},
+                           {"linear_3000", 300, 5},
+                           {"linear_10000", 100, 2},
+                           {"quadratic_700", 300, 3},
+                           {"quadratic_3000", 50, 1}};
 
-struct NamedMethod {
-  const char* suffix;
+constexpr int kStepsOfCycle = 200;  // about: from one press to the next
+
+constexpr struct {
   LinearSolverMethod method;
+  const char* name;
+} kMethods[] = {{LinearSolverMethod::kDirect, "direct"},
+                {LinearSolverMethod::kConjugateGradient, "conjugate_gradient"},
+                {LinearSolverMethod::kAsynchronous, "asynchronous"}};
+
+/// Sums of the phases of StepTimings.
+class Phases {
+ public:
+  void Add(const StepTimings& step) {
+    sum_.assembly += step.assembly;
+    sum_.factorization += step.factorization;
+    sum_.free_motion += step.free_motion;
+    sum_.narrow_phase += step.narrow_phase;
+    sum_.classification += step.classification;
+    sum_.delassus += step.delassus;
+    sum_.solve += step.solve;
+    sum_.correction += step.correction;
+    sum_.total += step.total;
+  }
+  /// Thread-CPU time of each. The simulator's stopwatches show wall time; on a busy machine they
+  /// stand still in any phase alike, so that the shares remain. @param cpu Of all steps. [s]
+  std::vector<std::pair<std::string, double>> Scaled(double cpu) const {
+    const double scale = cpu / sum_.total;
+    return {{"assembly", scale * sum_.assembly},
+            {"factorization", scale * sum_.factorization},
+            {"free_motion", scale * sum_.free_motion},
+            {"classification", scale * (sum_.narrow_phase + sum_.classification)},
+            {"delassus", scale * sum_.delassus},
+            {"solve", scale * sum_.solve},
+            {"correction", scale * sum_.correction}};
+  }
+
+ private:
+  StepTimings sum_;
 };
-constexpr NamedMethod kMethods[] = {{"", LinearSolverMethod::kDirect},
-                                    {"/conjugate_gradient", LinearSolverMethod::kConjugateGradient},
-                                    {"/asynchronous", LinearSolverMethod::kAsynchronous}};
 
-constexpr double kPullSpeed = 0.005;  // m/s
-
-double ThreadTime() {
-  timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
-
-double Quantile(std::vector<double> values, double share) {
-  const auto place =
-      values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), place, values.end());
-  return *place;
-}
-
-/// Eigen's product of two dense 512 x 512 matrices: how fast this machine is just now. [s]
-double Yardstick() {
-  const Eigen::MatrixXd a = Eigen::MatrixXd::Random(512, 512);
-  const Eigen::MatrixXd b = Eigen::MatrixXd::Random(512, 512);
-  Eigen::MatrixXd c(512, 512);
-  std::vector<double> times;
-  for (int i = 0; i < 9; ++i) {
-    const double begin = ThreadTime();
-    c.noalias() = a * b;
-    benchmark::DoNotOptimize(c.data());
-    times.push_back(ThreadTime() - begin);
-  }
-  return Quantile(times, 0.5);
-}
-
-void Prepare(Phase phase, GripCycle* cycle) {
-  if (phase == Phase::kAir) return cycle->Drive(kCupLength + 0.005, 0.05, 0.0, 0.1);
-  cycle->Drive(kCupLength - 0.001, 0.01, 0.0, 0.1);
-  if (phase == Phase::kPressed) return;
-  cycle->Drive(kCupLength - 0.001, 0.01, -6000.0, 0.2);
-  if (phase == Phase::kPulling) cycle->Drive(kCupLength, kPullSpeed, -6000.0);
-}
-
-void Step(benchmark::State& state, const char* bell, const NamedPhase& phase,
-          LinearSolverMethod method) {
-  SimulatorParameters parameters = A20(0.01);
-  parameters.linear_solver.method = method;
-  GripCycle cycle(LoadBell(bell), parameters);
-  Prepare(phase.phase, &cycle);
-
-  double yardstick = Yardstick();
-  StepTimings sum;
-  std::vector<double> times;
-  double height = kCupLength;
-  double stride = kPullSpeed * parameters.time_step;
+void TimeSteps(benchmark::State& state, const char* bell, Situation situation,
+               LinearSolverMethod method) {
+  GripSituation grip(bell, situation, method);
+  const OnOneCore on_one_core;
+  StepStatistics statistics;
+  Phases phases;
+  double candidates = 0.0;
+  double factorizations = 0.0;
+  double iterations = 0.0;
   for (auto _ : state) {
+    double wall = 0.0;
     const double begin = ThreadTime();
-    if (phase.phase == Phase::kPulling) {  // up and down again within what the seal bears
-      if (height + stride > kCupLength + 0.002 || height + stride < kCupLength) stride = -stride;
-      height += stride;
-      cycle.Drive(height, kPullSpeed, phase.setpoint);
-    } else {
-      cycle.Step(phase.setpoint);
+    {
+      const Stopwatch stopwatch(&wall);
+      grip.Step();
     }
-    times.push_back(ThreadTime() - begin);
-    const StepTimings& timings = cycle.result().timings;
-    sum.assembly += timings.assembly;
-    sum.factorization += timings.factorization;
-    sum.free_motion += timings.free_motion;
-    sum.narrow_phase += timings.narrow_phase;
-    sum.classification += timings.classification;
-    sum.delassus += timings.delassus;
-    sum.solve += timings.solve;
-    sum.correction += timings.correction;
+    statistics.Add(ThreadTime() - begin, wall);
+    const StepResult& result = grip.result();
+    phases.Add(result.timings);
+    candidates += result.num_candidates;
+    factorizations += result.factorizations;
+    iterations += result.linear_iterations;
   }
-  yardstick = 0.5 * (yardstick + Yardstick());
+  statistics.Report(phases.Scaled(statistics.total_cpu()), &state);
+  using benchmark::Counter;
+  state.counters["elements"] = grip.cycle().simulator().mesh().num_elements();
+  state.counters["candidates"] = Counter(candidates, Counter::kAvgIterations);
+  state.counters["factorizations"] = Counter(factorizations, Counter::kAvgIterations);
+  state.counters["iterations_cg"] = Counter(iterations, Counter::kAvgIterations);
+  state.counters["undone"] = grip.cycle().undone_steps;
+  state.counters["flips"] = grip.cycle().seal_flips;
+}
 
-  const auto per_step = [](double seconds) {
-    return benchmark::Counter(1e3 * seconds, benchmark::Counter::kAvgIterations);
-  };
-  const double total = std::accumulate(times.begin(), times.end(), 0.0);
-  state.counters["yardsticks"] = total / static_cast<double>(times.size()) / yardstick;
-  state.counters["p99_ms"] = 1e3 * Quantile(times, 0.99);
-  state.counters["max_ms"] = 1e3 * Quantile(times, 1.0);
-  state.counters["assembly_ms"] = per_step(sum.assembly);
-  state.counters["factor_ms"] = per_step(sum.factorization);
-  state.counters["free_ms"] = per_step(sum.free_motion);
-  state.counters["narrow_ms"] = per_step(sum.narrow_phase);
-  state.counters["classify_ms"] = per_step(sum.classification);
-  state.counters["W_ms"] = per_step(sum.delassus);
-  state.counters["solve_ms"] = per_step(sum.solve);
-  state.counters["correct_ms"] = per_step(sum.correction);
-  state.counters["candidates"] = cycle.result().num_candidates;
+/// Steps a grip once more and keeps where it started.
+StepProblem Record(GripSituation* grip) {
+  const double h = grip->cycle().simulator().parameters().time_step;
+  const Eigen::Matrix3Xd x_before_W = grip->result().x_W;
+  grip->Step();
+  StepProblem problem;
+  problem.x_W = grip->result().x_W;
+  problem.v_W = (problem.x_W - x_before_W) / h;
+  problem.wet = grip->result().classification.wet;
+  grip->Step();
+  problem.X_WM = grip->result().X_WM;
+  problem.pressure = grip->result().gauge_pressure;
+  problem.x_end_W = grip->result().x_W;
+  return problem;
+}
+
+/// The paper's step, over and over from the same state.
+void TimePaper(benchmark::State& state, const char* bell, Situation situation,
+               PaperPipeline::Points points) {
+  GripSituation grip(bell, situation, LinearSolverMethod::kDirect);
+  const Simulator& simulator = grip.cycle().simulator();
+  const StepProblem problem = Record(&grip);
+  PaperPipeline pipeline(simulator.mesh(), simulator.parameters(), simulator.surfaces(), points);
+  const OnOneCore on_one_core;
+  StepStatistics statistics;
+  PaperTimings sum;
+  Eigen::Matrix3Xd x_W;
+  for (auto _ : state) {
+    double wall = 0.0;
+    const double begin = ThreadTime();
+    const double factorization_before = sum.factorization;
+    {
+      const Stopwatch stopwatch(&wall);
+      x_W = pipeline.Step(problem, &sum);
+    }
+    // Without the factorisation: another thread's work in the paper.
+    const double factorization = sum.factorization - factorization_before;
+    statistics.Add(ThreadTime() - begin - factorization, wall);
+  }
+  statistics.Report({{"assembly", sum.assembly},
+                     {"factorization", sum.factorization},
+                     {"free_motion", sum.free_motion},
+                     {"classification", sum.classification},
+                     {"delassus", sum.delassus},
+                     {"solve", sum.solve},
+                     {"correction", sum.correction}},
+                    &state);
+  state.counters["elements"] = simulator.mesh().num_elements();
+  state.counters["candidates"] = pipeline.num_constraints();
+  // How far its nodes end from the Simulator's. [m]
+  state.counters["difference"] = (x_W - problem.x_end_W).colwise().norm().maxCoeff();
 }
 
 void RegisterAll() {
-  for (const char* const bell :
-       {"linear_700", "linear_3000", "linear_10000", "quadratic_700", "quadratic_3000"}) {
-    for (const NamedPhase& phase : kPhases) {
-      for (const NamedMethod& method : kMethods) {
-        const std::string title = std::string(bell) + "/" + phase.name + method.suffix;
-        benchmark::RegisterBenchmark(title.c_str(), Step, bell, phase, method.method)
-            ->Unit(benchmark::kMillisecond);
+  const auto add = [](const std::string& title, int num_steps, const auto& function) {
+    benchmark::RegisterBenchmark(title.c_str(), function)
+        ->Iterations(num_steps)
+        ->Unit(benchmark::kMillisecond);
+  };
+  for (const Bell& bell : kBells) {
+    const char* const name = bell.name;
+    for (const auto& named : kSituations) {
+      const Situation situation = named.situation;
+      const bool cycle = situation == Situation::kCycle;
+      const std::string title = std::string(name) + "/" + named.name + "/";
+      for (const auto& solver : kMethods) {
+        const LinearSolverMethod method = solver.method;
+        add(title + solver.name, cycle ? std::max(bell.num_steps, kStepsOfCycle) : bell.num_steps,
+            [=](benchmark::State& state) { TimeSteps(state, name, situation, method); });
       }
+      if (cycle) continue;
+      const auto add_paper = [&](const char* method, PaperPipeline::Points points) {
+        add(title + method, bell.num_paper_steps,
+            [=](benchmark::State& state) { TimePaper(state, name, situation, points); });
+      };
+      add_paper("paper", PaperPipeline::Points::kNodesAndEdges);
+      // Quadratic elements have a node on every edge: both are the same.
+      if (title.find("linear") == 0) add_paper("paper_nodes", PaperPipeline::Points::kNodes);
     }
   }
 }
+
+/// A line a case; the rest is for the JSON file.
+class OneLine : public benchmark::BenchmarkReporter {
+ public:
+  bool ReportContext(const Context& /*context*/) override { return true; }
+  void ReportRuns(const std::vector<Run>& runs) override {
+    for (const Run& run : runs) {
+      if (run.run_type != Run::RT_Iteration) continue;
+      const auto median = run.counters.find("cpu_median");
+      const auto yardstick = run.counters.find("yardstick");
+      if (median == run.counters.end() || yardstick == run.counters.end()) continue;
+      const std::string name = run.run_name.function_name;
+      std::printf("%-42s %9.3f ms  %8.3f yardsticks\n", name.c_str(), median->second.value,
+                  median->second.value / yardstick->second.value);
+    }
+    std::fflush(stdout);
+  }
+};
 
 }  // namespace
 }  // namespace vacuum_gripper_sim
@@ -144,5 +209,6 @@ int main(int argc, char** argv) {
   vacuum_gripper_sim::RegisterAll();
   benchmark::Initialize(&argc, argv);
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 1;
-  benchmark::RunSpecifiedBenchmarks();
+  vacuum_gripper_sim::OneLine one_line;
+  benchmark::RunSpecifiedBenchmarks(&one_line);
 }

@@ -1,0 +1,93 @@
+#include "grip_situation.h"
+
+#include <algorithm>
+
+namespace vacuum_gripper_sim {
+namespace {
+
+constexpr double kTimeStep = 0.01;                        // s
+constexpr double kSuction = -6000.0;                      // Pa
+constexpr double kPressedHeight = kCupLength - 1e-3;      // m
+constexpr double kPressSpeed = 0.01, kPullSpeed = 0.005;  // m/s
+constexpr double kWithinOneStep = 1.0;                    // m/s
+
+SimulatorParameters WithMethod(LinearSolverMethod method) {
+  SimulatorParameters parameters = A20(kTimeStep);
+  parameters.linear_solver.method = method;
+  return parameters;
+}
+
+}  // namespace
+
+GripSituation::GripSituation(const std::string& bell, Situation situation,
+                             LinearSolverMethod method)
+    : situation_(situation), cycle_(LoadBell(bell), WithMethod(method)) {
+  constexpr double kSettling = 0.2;  // s
+  switch (situation) {
+    case Situation::kAir:
+      cycle_.Drive(kCupLength + 0.005, 0.05, 0.0, kSettling);
+      break;
+    case Situation::kPressed:
+      cycle_.Drive(kPressedHeight, kPressSpeed, 0.0, kSettling);
+      break;
+    case Situation::kSealed:
+    case Situation::kPulled:
+      cycle_.Drive(kPressedHeight, kPressSpeed, 0.0, kSettling);
+      cycle_.Drive(kPressedHeight, kPressSpeed, kSuction, kSettling);
+      if (situation == Situation::kPulled) cycle_.Drive(kCupLength, kPullSpeed, kSuction);
+      break;
+    case Situation::kLeaking: {
+      Eigen::Isometry3d X_WS = Eigen::Isometry3d::Identity();
+      X_WS.rotate(Eigen::AngleAxisd(8.0 / 180.0 * EIGEN_PI, Eigen::Vector3d::UnitX()));
+      cycle_.Drive(kCupLength + 0.005, 0.05, 0.0);
+      cycle_.simulator().SetSurfacePose(0, X_WS);
+      cycle_.Drive(kCupLength, kPressSpeed, kSuction, kSettling);
+      break;
+    }
+    case Situation::kCycle:
+      cycle_.Drive(kCupLength + 0.001, kPressSpeed, 0.0);
+      direction_ = -1.0;
+      break;
+  }
+}
+
+void GripSituation::Step() {
+  switch (situation_) {
+    case Situation::kAir:
+    case Situation::kPressed:
+      return cycle_.Step(0.0);
+    case Situation::kSealed:
+    case Situation::kLeaking:
+      return cycle_.Step(kSuction);
+    case Situation::kPulled:
+      return StepUpAndDown(kCupLength, kCupLength + 0.003);
+    case Situation::kCycle:
+      return StepThroughCycle();
+  }
+}
+
+void GripSituation::StepUpAndDown(double lowest, double highest) {
+  const double stride = kPullSpeed * kTimeStep;
+  if (cycle_.height() + stride > highest) direction_ = -1.0;
+  if (cycle_.height() - stride < lowest) direction_ = 1.0;
+  cycle_.Drive(cycle_.height() + direction_ * stride, kWithinOneStep, kSuction);
+}
+
+void GripSituation::StepThroughCycle() {
+  constexpr int kStepsPressed = 10, kStepsSealed = 20;
+  if (direction_ < 0.0) {
+    const double height = std::max(cycle_.height() - kPressSpeed * kTimeStep, kPressedHeight);
+    if (height != cycle_.height()) return cycle_.Drive(height, kWithinOneStep, 0.0);
+    ++steps_held_;
+    if (steps_held_ > kStepsPressed + kStepsSealed) {
+      direction_ = 1.0;
+      steps_held_ = 0;
+    }
+    return cycle_.Step(steps_held_ > kStepsPressed ? kSuction : 0.0);
+  }
+  const double height = cycle_.height() + kPullSpeed * kTimeStep;
+  cycle_.Drive(height, kWithinOneStep, kSuction);
+  if (!Holds(result())) direction_ = -1.0;
+}
+
+}  // namespace vacuum_gripper_sim

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <string>
+
+#include "physics/grip_cycle.h"
+
+namespace vacuum_gripper_sim {
+
+/// What a cup is doing while its steps are timed.
+enum class Situation {
+  kAir,      ///< Above the plate, at rest.
+  kPressed,  ///< Pressed onto it by 1 mm, without suction.
+  kSealed,   ///< And held there at -6 kPa.
+  kPulled,   ///< Under suction, lifted by 0 to 3 mm up and down at 5 mm/s: contacts come and go.
+  kLeaking,  ///< Lowered onto a plate tilted by 8 degrees, suction on: one side stands open.
+  kCycle,    ///< Pressed, sealed, pulled off until it lets go, vented, over and over.
+};
+
+inline constexpr struct {
+  Situation situation;
+  const char* name;
+} kSituations[] = {{Situation::kAir, "air"},         {Situation::kPressed, "pressed"},
+                   {Situation::kSealed, "sealed"},   {Situation::kPulled, "pulled"},
+                   {Situation::kLeaking, "leaking"}, {Situation::kCycle, "cycle"}};
+
+/// A cup of A20 brought into a situation and kept there.
+class GripSituation {
+ public:
+  /// @param bell Name of one of meshes/bell_*.msh.
+  GripSituation(const std::string& bell, Situation situation, LinearSolverMethod method);
+
+  /// The situation's next step.
+  void Step();
+
+  GripCycle& cycle() { return cycle_; }
+  const StepResult& result() const { return cycle_.result(); }
+
+ private:
+  void StepUpAndDown(double lowest, double highest);
+  void StepThroughCycle();
+
+  Situation situation_;
+  GripCycle cycle_;
+  double direction_{1.0};  // of the mount, up or down
+  int steps_held_{0};      // of a cycle, pressed
+};
+
+}  // namespace vacuum_gripper_sim
