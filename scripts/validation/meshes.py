@@ -20,7 +20,8 @@ CATALOGUE = {
     'quadratic_700': Mesh('bell_700', 2, 0.024),
     'quadratic_1500': Mesh('bell_1500', 2, 0.12),
     'quadratic_3000': Mesh('bell_3000', 2, 0.4),
-    'quadratic_6000': Mesh('bell_6000', 2, 1.3),
+    'quadratic_6000': Mesh('bell_6000', 2, 0.7),
+    'quadratic_12000': Mesh('bell_12000', 2, 2.5),
     'quadratic_700_fine_rim': Mesh('bell_700_fine_rim', 2, 0.12),
 }
 
