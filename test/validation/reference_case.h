@@ -110,14 +110,22 @@ class ReferenceTable {
   using Row = std::map<std::string, double>;
   const std::vector<Row>& rows() const { return rows_; }
 
-  /// Force on the mount of the first airtight row at this mount height [m] and pressure [Pa]; the
-  /// rows with `sealed` and `seal_ok` are those whose seal was found consistently. [N]
-  double Force(double clamp_uz, double pressure) const {
+  /// Force on the mount [N] over its height [m] in the airtight rows at this pressure [Pa]: those
+  /// with `sealed` and `seal_ok`, whose seal was found consistently. The first of equal heights.
+  std::map<double, double> Forces(double pressure) const {
+    std::map<double, double> forces;
     for (const Row& row : rows_) {
-      if (std::abs(row.at("clamp_uz") - clamp_uz) < 1e-7 && row.at("p") == pressure &&
-          row.at("sealed") == 1.0 && row.at("seal_ok") == 1.0) {
-        return row.at("F_clamp");
+      if (row.at("p") == pressure && row.at("sealed") == 1.0 && row.at("seal_ok") == 1.0) {
+        forces.emplace(1e-6 * std::round(1e6 * row.at("clamp_uz")), row.at("F_clamp"));
       }
+    }
+    return forces;
+  }
+
+  /// One of Forces().
+  double Force(double clamp_uz, double pressure) const {
+    for (const auto& [height, force] : Forces(pressure)) {
+      if (std::abs(height - clamp_uz) < 1e-7) return force;
     }
     std::ostringstream message;
     message << file_ << " has no airtight row at clamp_uz = " << clamp_uz << ", p = " << pressure;
