@@ -37,10 +37,10 @@ GripSituation::GripSituation(const std::string& bell, Situation situation,
       if (situation == Situation::kPulled) cycle_.Drive(kCupLength, kPullSpeed, kSuction);
       break;
     case Situation::kLeaking: {
-      Eigen::Isometry3d X_WS = Eigen::Isometry3d::Identity();
-      X_WS.rotate(Eigen::AngleAxisd(8.0 / 180.0 * EIGEN_PI, Eigen::Vector3d::UnitX()));
+      Eigen::Isometry3d X_WO = Eigen::Isometry3d::Identity();
+      X_WO.rotate(Eigen::AngleAxisd(8.0 / 180.0 * EIGEN_PI, Eigen::Vector3d::UnitX()));
       cycle_.Drive(kCupLength + 0.005, 0.05, 0.0);
-      cycle_.simulator().SetSurfacePose(0, X_WS);
+      cycle_.simulator().SetObjectPose(0, X_WO);
       cycle_.Drive(kCupLength, kPressSpeed, kSuction, kSettling);
       break;
     }

@@ -65,14 +65,15 @@ Eigen::Matrix3Xd PaperPipeline::PointPositions(const Eigen::Matrix3Xd& x_W) cons
 }
 
 /// b += (row of H)^T impulse. @param impulse [N s]
-void PaperPipeline::AddImpulse(const Contact& contact, double impulse, Eigen::VectorXd* b) const {
+void PaperPipeline::AddImpulse(const NodeContact& contact, double impulse,
+                               Eigen::VectorXd* b) const {
   for (const int node : points_[static_cast<std::size_t>(contact.node)]) {
     b->segment<3>(system_.FreeRow(node)) += 0.5 * impulse * contact.normal;
   }
 }
 
 /// (row of H) dv. [m/s]
-double PaperPipeline::NormalVelocity(const Contact& contact, const Eigen::VectorXd& dv) const {
+double PaperPipeline::NormalVelocity(const NodeContact& contact, const Eigen::VectorXd& dv) const {
   const auto& [a, b] = points_[static_cast<std::size_t>(contact.node)];
   return 0.5 *
          contact.normal.dot(dv.segment<3>(system_.FreeRow(a)) + dv.segment<3>(system_.FreeRow(b)));
@@ -119,12 +120,12 @@ Eigen::Matrix3Xd PaperPipeline::Step(const StepProblem& problem, PaperTimings* t
   const Eigen::Matrix3Xd x_free_W = end_positions(dv_f);
 
   // 2) Classification.
-  std::vector<Contact> contacts;
+  std::vector<NodeContact> contacts;
   {
     const ThreadStopwatch stopwatch(&timings->classification);
     NarrowPhase narrow_phase;
     narrow_phase.Begin(surfaces_, point_numbers_, PointPositions(problem.x_W));
-    contacts = narrow_phase.Select(PointPositions(x_free_W), [](const Contact& contact) {
+    contacts = narrow_phase.Select(PointPositions(x_free_W), [](const NodeContact& contact) {
       return contact.gap < kAlarmDistance;
     });
     classification_ =
@@ -150,7 +151,7 @@ Eigen::Matrix3Xd PaperPipeline::Step(const StepProblem& problem, PaperTimings* t
     H_p = PressureRow(problem);
     const Eigen::VectorXd dv = factorization_.Solve(h * H_p);
     for (Eigen::Index i = 0; i < n; ++i) {
-      const Contact& contact = contacts[static_cast<std::size_t>(i)];
+      const NodeContact& contact = contacts[static_cast<std::size_t>(i)];
       delta(i) = contact.gap + h * NormalVelocity(contact, dv) * problem.pressure;
     }
   }

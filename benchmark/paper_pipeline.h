@@ -69,8 +69,8 @@ class PaperPipeline {
   Eigen::VectorXd FreeMotion(const Eigen::VectorXd& b) const;
   Eigen::VectorXd PressureRow(const StepProblem& problem) const;
   Eigen::Matrix3Xd PointPositions(const Eigen::Matrix3Xd& x_W) const;
-  void AddImpulse(const Contact& contact, double impulse, Eigen::VectorXd* b) const;
-  double NormalVelocity(const Contact& contact, const Eigen::VectorXd& dv) const;
+  void AddImpulse(const NodeContact& contact, double impulse, Eigen::VectorXd* b) const;
+  double NormalVelocity(const NodeContact& contact, const Eigen::VectorXd& dv) const;
 
   SimulatorParameters parameters_;
   std::vector<RigidSurface> surfaces_;

@@ -13,6 +13,7 @@
 #include "paper_pipeline.h"
 #include "step_statistics.h"
 #include "thread_clock.h"
+#include "vacuum_gripper_sim/core/rigid_world.h"
 #include "vacuum_gripper_sim/core/stopwatch.h"
 
 namespace vacuum_gripper_sim {
@@ -118,13 +119,20 @@ StepProblem Record(GripSituation* grip) {
   return problem;
 }
 
+std::vector<RigidSurface> PlacedSurfaces(const Simulator& simulator) {
+  RigidWorld world;
+  world.SetObjects(simulator.objects());
+  return world.surfaces();
+}
+
 /// The paper's step, over and over from the same state.
 void TimePaper(benchmark::State& state, const char* bell, Situation situation,
                PaperPipeline::Points points) {
   GripSituation grip(bell, situation, LinearSolverMethod::kDirect);
   const Simulator& simulator = grip.cycle().simulator();
   const StepProblem problem = Record(&grip);
-  PaperPipeline pipeline(simulator.mesh(), simulator.parameters(), simulator.surfaces(), points);
+  PaperPipeline pipeline(simulator.mesh(), simulator.parameters(), PlacedSurfaces(simulator),
+                         points);
   const OnOneCore on_one_core;
   StepStatistics statistics;
   PaperTimings sum;

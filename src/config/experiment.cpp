@@ -11,7 +11,7 @@ namespace vacuum_gripper_sim {
 Simulator MakeSimulator(const Scenario& scenario) {
   Simulator simulator(ReadGmsh(scenario.cup.mesh_file), scenario.parameters,
                       CommandAt(scenario.timeline, 0.0).X_WM);
-  simulator.SetSurfaces(scenario.surfaces);
+  simulator.SetObjects(scenario.objects);
   return simulator;
 }
 

@@ -40,14 +40,14 @@ void ApplyOverrides(const std::vector<std::string>& assignments, const Directori
   }
 }
 
-std::vector<RigidSurface> ReadWorld(ParameterReader* reader, const Directories& directories) {
+std::vector<RigidObject> ReadWorld(ParameterReader* reader, const Directories& directories) {
   const YAML::Node list = reader->GetNode("surfaces");
   if (!reader->Has("scene")) {
-    if (reader->Has("surfaces")) return ReadSurfaces(list, "surfaces");
+    if (reader->Has("surfaces")) return ReadObjects(list, "surfaces");
     RigidSurface ground;
     ground.name = "ground";
     ground.shape = Plane{};
-    return {ground};
+    return {FixedObject(ground)};
   }
   const std::string scene = reader->GetString("scene");
   if (reader->Has("surfaces")) {
@@ -101,7 +101,7 @@ Scenario ReadDocument(const YAML::Node& root, const Directories& directories,
   parameters.material = scenario.cup.material;
   parameters.damping = scenario.cup.damping;
   Validate(parameters);
-  scenario.surfaces = ReadWorld(&reader, directories);
+  scenario.objects = ReadWorld(&reader, directories);
   scenario.timeline = ReadTimeline(timeline, "timeline");
   CheckSetpoints(scenario, timeline);
   scenario.duration = reader.GetDouble("duration", scenario.timeline.back().time);

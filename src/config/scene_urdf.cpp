@@ -84,7 +84,7 @@ std::vector<RigidSurface> ReadSurfaces(const urdf::Link& link) {
     RigidSurface surface;
     surface.name = link.name;
     surface.shape = ToShape(*collision->geometry, link.name);
-    surface.X_WS = ToIsometry(collision->origin);
+    surface.X_FS = ToIsometry(collision->origin);
     try {
       Validate(surface);
     } catch (const std::invalid_argument& e) {
@@ -96,27 +96,31 @@ std::vector<RigidSurface> ReadSurfaces(const urdf::Link& link) {
 }
 
 /// Depth first from the root, so that parents come before their children.
-void Collect(const urdf::Link& link, const Eigen::Isometry3d& X_RL, std::vector<SceneLink>* links) {
-  SceneLink scene_link{link.name, ReadSurfaces(link), X_RL};
-  if (!scene_link.surfaces.empty()) links->push_back(std::move(scene_link));
+void Collect(const urdf::Link& link, const Eigen::Isometry3d& X_RL,
+             std::vector<RigidObject>* objects) {
+  RigidObject object;
+  object.name = link.name;
+  object.surfaces = ReadSurfaces(link);
+  object.X_WO = X_RL;
+  if (!object.surfaces.empty()) objects->push_back(std::move(object));
   for (const urdf::LinkSharedPtr& child : link.child_links) {
     Collect(*child, X_RL * ToIsometry(child->parent_joint->parent_to_joint_origin_transform),
-            links);
+            objects);
   }
 }
 
 }  // namespace
 
-std::vector<SceneLink> ReadSceneUrdf(const std::string& xml) {
+std::vector<RigidObject> ReadSceneUrdf(const std::string& xml) {
   const urdf::ModelInterfaceSharedPtr model = Parse(xml);
-  std::vector<SceneLink> links;
-  Collect(*model->getRoot(), Eigen::Isometry3d::Identity(), &links);
-  if (links.empty()) {
+  std::vector<RigidObject> objects;
+  Collect(*model->getRoot(), Eigen::Isometry3d::Identity(), &objects);
+  if (objects.empty()) {
     throw std::invalid_argument("scene: robot " + model->getName() +
                                 " has no collision geometry; expected at least one box, sphere or "
                                 "cylinder");
   }
-  return links;
+  return objects;
 }
 
 }  // namespace vacuum_gripper_sim

@@ -42,42 +42,35 @@ Shape ReadShape(ParameterReader* reader) {
 
 }  // namespace
 
-std::vector<RigidSurface> ReadSurfaces(const YAML::Node& node, const std::string& name) {
+std::vector<RigidObject> ReadObjects(const YAML::Node& node, const std::string& name) {
   if (!node.IsSequence()) {
     throw std::invalid_argument(name + " = " + Describe(node) + "; expected a list of surfaces");
   }
-  std::vector<RigidSurface> surfaces;
+  std::vector<RigidObject> objects;
   for (std::size_t i = 0; i < node.size(); ++i) {
     const std::string path = name + "." + std::to_string(i);
     ParameterReader reader(node[i], path);
     RigidSurface surface;
     surface.name = reader.GetString("name", path);
     surface.shape = ReadShape(&reader);
-    surface.X_WS.translation() = reader.GetVector3("position", Eigen::Vector3d::Zero());
-    surface.X_WS.linear() =
+    surface.X_FS.translation() = reader.GetVector3("position", Eigen::Vector3d::Zero());
+    surface.X_FS.linear() =
         reader.GetRotation("rotation", Eigen::Quaterniond::Identity()).toRotationMatrix();
     reader.CheckNoUnknownKeys();
-    Validate(surface);
-    surfaces.push_back(std::move(surface));
+    objects.push_back(FixedObject(std::move(surface)));
+    Validate(objects.back());
   }
-  return surfaces;
+  return objects;
 }
 
-std::vector<RigidSurface> ReadSceneFile(const std::string& path) {
-  std::vector<RigidSurface> surfaces;
+std::vector<RigidObject> ReadSceneFile(const std::string& path) {
   try {
-    for (const SceneLink& link : ReadSceneUrdf(ReadTextFile(path))) {
-      for (RigidSurface surface : link.surfaces) {
-        surface.X_WS = link.X_RL * surface.X_WS;
-        surfaces.push_back(std::move(surface));
-      }
-    }
+    return ReadSceneUrdf(ReadTextFile(path));
   } catch (const std::invalid_argument& e) {
     const std::string reason = e.what();
     if (reason.find(path) != std::string::npos) throw;
     throw std::invalid_argument(path + ": " + reason);
   }
-  return surfaces;
 }
 
 }  // namespace vacuum_gripper_sim

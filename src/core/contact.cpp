@@ -30,24 +30,11 @@ void NarrowPhase::Begin(const std::vector<RigidSurface>& surfaces, const std::ve
   }
 }
 
-Contact NarrowPhase::Ahead(std::size_t pair, const Eigen::Matrix3Xd& x1_W) const {
-  const SurfaceDistance& seen = seen_[pair];
-  const int node = nodes_[pair / surfaces_->size()];
-  const double gap = seen.distance + seen.normal.dot(x1_W.col(node) - x0_W_.col(node));
-  return {node, static_cast<int>(pair % surfaces_->size()), gap, seen.normal};
-}
-
-Contact NarrowPhase::Ahead(int node, int surface, const Eigen::Matrix3Xd& x1_W) const {
-  const auto place = std::lower_bound(nodes_.begin(), nodes_.end(), node) - nodes_.begin();
-  return Ahead(
-      static_cast<std::size_t>(place) * surfaces_->size() + static_cast<std::size_t>(surface),
-      x1_W);
-}
-
-Contact NarrowPhase::At(int node, int surface, const Eigen::Matrix3Xd& x_W) const {
-  const SurfaceDistance seen =
-      Distance((*surfaces_)[static_cast<std::size_t>(surface)], x_W.col(node));
-  return {node, surface, seen.distance, seen.normal};
+NodeContact NarrowPhase::Ahead(int pair, const Eigen::Matrix3Xd& x1_W) const {
+  const SurfaceDistance& start = seen(pair);
+  const double gap =
+      start.distance + start.normal.dot(x1_W.col(node(pair)) - x0_W_.col(node(pair)));
+  return {node(pair), surface(pair), gap, start.normal};
 }
 
 }  // namespace vacuum_gripper_sim

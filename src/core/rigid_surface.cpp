@@ -78,12 +78,12 @@ void ValidateShape(const std::string& name, const Cylinder& cylinder) {
 
 }  // namespace
 
-SurfaceDistance Distance(const RigidSurface& surface, const Eigen::Vector3d& p_W) {
-  const Eigen::Matrix3d R_WS = surface.X_WS.linear();
-  const Eigen::Vector3d p_S = R_WS.transpose() * (p_W - surface.X_WS.translation());
+SurfaceDistance Distance(const RigidSurface& surface, const Eigen::Vector3d& p_F) {
+  const Eigen::Matrix3d R_FS = surface.X_FS.linear();
+  const Eigen::Vector3d p_S = R_FS.transpose() * (p_F - surface.X_FS.translation());
   SurfaceDistance result =
       std::visit([&](const auto& shape) { return DistanceInFrame(shape, p_S); }, surface.shape);
-  result.normal = R_WS * result.normal;
+  result.normal = R_FS * result.normal;
   return result;
 }
 
@@ -96,11 +96,17 @@ bool IsRigidMotion(const Eigen::Isometry3d& X) {
 
 void Validate(const RigidSurface& surface) {
   std::visit([&](const auto& shape) { ValidateShape(surface.name, shape); }, surface.shape);
-  if (IsRigidMotion(surface.X_WS)) return;
+  if (!(std::isfinite(surface.friction) && surface.friction >= 0.0)) {
+    std::ostringstream reason;
+    reason << "surface '" << surface.name << "': friction = " << surface.friction
+           << ", must be finite and >= 0 [-]";
+    throw std::invalid_argument(reason.str());
+  }
+  if (IsRigidMotion(surface.X_FS)) return;
   std::ostringstream message;
   message << "surface '" << surface.name
           << "': pose is not a finite position with a rotation; translation = "
-          << surface.X_WS.translation().transpose();
+          << surface.X_FS.translation().transpose();
   throw std::invalid_argument(message.str());
 }
 

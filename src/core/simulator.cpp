@@ -11,12 +11,16 @@
 #include "vacuum_gripper_sim/core/elastic_body.h"
 #include "vacuum_gripper_sim/core/implicit_euler.h"
 #include "vacuum_gripper_sim/core/linear_solver.h"
+#include "vacuum_gripper_sim/core/rigid_world.h"
 #include "vacuum_gripper_sim/core/seal_tolerance.h"
 #include "vacuum_gripper_sim/core/stopwatch.h"
 #include "vacuum_gripper_sim/core/suction.h"
 
 namespace vacuum_gripper_sim {
 namespace {
+
+/// An object that was moved farther than this in one step is named if the step fails. [m]
+constexpr double kJump = 1e-3;
 
 /// The nodes of the whole boundary, ascending.
 std::vector<int> SurfaceNodes(const TetMesh& mesh) {
@@ -93,7 +97,7 @@ class Simulator::Implementation {
     Reset(X_WM);
   }
 
-  void SetSurfaces(std::vector<RigidSurface> surfaces);
+  void SetObjects(std::vector<RigidObject> objects);
   void Reset(const Eigen::Isometry3d& X_WM);
   void Step(const Command& command);
 
@@ -105,7 +109,7 @@ class Simulator::Implementation {
   TetMesh mesh_;
   CavitySurface cavity_;
   SimulatorParameters parameters_;
-  std::vector<RigidSurface> surfaces_;
+  RigidWorld world_;
   StepResult result_;
 
  private:
@@ -114,6 +118,7 @@ class Simulator::Implementation {
   void ReportWrench(const SuctionSolution& solution, const Eigen::Matrix3Xd& dv_c);
   void ReportCavity(const SuctionSolution& solution);
   void ReportCavitySize();
+  void ReportObjects(const std::vector<ObjectLoad>& loads);
 
   Eigen::Matrix3Xd rest_M_;  // rest positions in the mount frame [m]
   ElasticBody body_;
@@ -124,9 +129,10 @@ class Simulator::Implementation {
   State state_;
 };
 
-void Simulator::Implementation::SetSurfaces(std::vector<RigidSurface> surfaces) {
-  surfaces_ = std::move(surfaces);
+void Simulator::Implementation::SetObjects(std::vector<RigidObject> objects) {
+  world_.SetObjects(std::move(objects));
   stage_.ForgetForces();  // they were numbered by the old surfaces
+  ReportObjects(std::vector<ObjectLoad>(world_.objects().size()));
 }
 
 void Simulator::Implementation::Reset(const Eigen::Isometry3d& X_WM) {
@@ -140,11 +146,13 @@ void Simulator::Implementation::Reset(const Eigen::Isometry3d& X_WM) {
   result_.time = time;
   result_.X_WM = X_WM;
   result_.x_W = state_.x_W;
-  const std::vector<double> distance = NearestDistances(surfaces_, cavity_.nodes, state_.x_W);
+  const std::vector<double> distance =
+      NearestDistances(world_.surfaces(), cavity_.nodes, state_.x_W);
   result_.gap = distance;
   result_.classification = Classify(cavity_, distance, *parameters_.seal.open_gap);
   result_.bottleneck_gap = result_.classification.bottleneck_gap;
   ReportCavitySize();
+  ReportObjects(std::vector<ObjectLoad>(world_.objects().size()));
 }
 
 /// The mount's nodes end the step where the commanded pose puts them.
@@ -212,12 +220,13 @@ bool Simulator::Implementation::Advance(const Command& command) {
 
   // 2) to 4) Classification, constraint directions, W and the mixed complementarity problem.
   SuctionSolution solution;
-  stage_.Begin(surfaces_, state_.x_W, state_.v_W, b, dv_c, h);
+  stage_.Begin(world_, state_.x_W, state_.v_W, b, dv_c, world_.FreeImpulse(parameters_.gravity, h),
+               h);
   if (!suction_.Solve(state_.x_W, command.pressure_setpoint, h, &stage_, &state_.grip, &solution,
                       timings)) {
     return fail(StepOutcome::kNonFinite, "A is not positive definite");
   }
-  if (!solution.contact.x_W.allFinite()) {
+  if (!solution.contact.x_W.allFinite() || !solution.contact.dV.allFinite()) {
     return fail(StepOutcome::kNonFinite, "the corrected motion is not finite");
   }
   result_.solver_iterations = solution.contact.statistics.iterations;
@@ -227,18 +236,26 @@ bool Simulator::Implementation::Advance(const Command& command) {
     std::ostringstream message;
     message << "contact error " << missed << " m is above contact.acceptable_residual = "
             << parameters_.contact.acceptable_residual << " m";
+    int jumped = 0;
+    const double jump = world_.LongestJump(&jumped);
+    if (jump > kJump) {
+      message << "; object '" << world_.objects()[static_cast<std::size_t>(jumped)].name
+              << "' was moved by " << jump << " m in one step";
+    }
     return fail(StepOutcome::kUnconverged, message.str());
   }
 
   // 5) Motion correction.
   state_.v_W += system_.Scatter(solution.contact.dv_f, dv_c);
   state_.x_W = solution.contact.x_W;
+  world_.Advance(solution.contact.dV, h);
 
   const Stopwatch stopwatch(&timings->correction);
   result_.X_WM = command.X_WM;
   result_.setpoint = command.pressure_setpoint;
   ReportWrench(solution, dv_c);
   ReportCavity(solution);
+  ReportObjects(solution.contact.objects);
   return true;
 }
 
@@ -278,12 +295,28 @@ void Simulator::Implementation::ReportCavity(const SuctionSolution& solution) {
   }
   ReportCavitySize();
   result_.contact_force = solution.contact.lambda.sum();
-  result_.num_contacts =
-      static_cast<std::uint32_t>((solution.contact.lambda.array() > 0.0).count());
+  result_.friction_force = solution.contact.friction_force;
+  result_.num_contacts = static_cast<std::uint32_t>(solution.contact.num_contacts);
   result_.num_candidates = static_cast<std::uint32_t>(solution.contact.num_candidates);
   result_.max_penetration = solution.contact.max_penetration;
   result_.linear_iterations = solver_.iterations();
   result_.factorizations = solver_.factorizations();
+}
+
+void Simulator::Implementation::ReportObjects(const std::vector<ObjectLoad>& loads) {
+  result_.objects.resize(loads.size());
+  for (std::size_t i = 0; i < loads.size(); ++i) {
+    ObjectResult& object = result_.objects[i];
+    object.X_WO = world_.objects()[i].X_WO;
+    object.force_W = loads[i].force_W;
+    object.torque_W = loads[i].torque_W;
+    const int body = world_.BodyOf(static_cast<int>(i));
+    if (body == RigidWorld::kNone) continue;
+    const RigidWorld::Vector6d V = world_.velocity(body);
+    object.angular_velocity_W = V.tail<3>();
+    object.velocity_W = V.head<3>() + object.angular_velocity_W.cross(object.X_WO.translation() -
+                                                                      world_.CentreOfMass(body));
+  }
 }
 
 /// Area and volume of what the pressure acts on if the cavity is sealed.
@@ -311,18 +344,16 @@ Simulator::~Simulator() = default;
 Simulator::Simulator(Simulator&&) noexcept = default;
 Simulator& Simulator::operator=(Simulator&&) noexcept = default;
 
-void Simulator::SetSurfaces(std::vector<RigidSurface> surfaces) {
-  for (const RigidSurface& surface : surfaces) Validate(surface);
-  implementation_->SetSurfaces(std::move(surfaces));
+void Simulator::SetObjects(std::vector<RigidObject> objects) {
+  implementation_->SetObjects(std::move(objects));
 }
 
-const std::vector<RigidSurface>& Simulator::surfaces() const { return implementation_->surfaces_; }
+const std::vector<RigidObject>& Simulator::objects() const {
+  return implementation_->world_.objects();
+}
 
-void Simulator::SetSurfacePose(int index, const Eigen::Isometry3d& X_WS) {
-  RigidSurface moved = implementation_->surfaces_.at(static_cast<std::size_t>(index));
-  moved.X_WS = X_WS;
-  Validate(moved);
-  implementation_->surfaces_[static_cast<std::size_t>(index)] = std::move(moved);
+void Simulator::SetObjectPose(int index, const Eigen::Isometry3d& X_WO) {
+  implementation_->world_.SetPose(index, X_WO);
 }
 
 const StepResult& Simulator::Step(const Command& command) {

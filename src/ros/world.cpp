@@ -16,15 +16,17 @@ constexpr double kGrace = 1.0;  // For a frame that is not there, before it is w
 
 World::World(const std::string& scene_description, const std::string& world_frame)
     : world_frame_(world_frame) {
-  std::vector<SceneLink> links;
+  std::vector<RigidObject> objects;
   if (scene_description.empty()) {
-    links.push_back({world_frame, {{"plane", Plane{}, Eigen::Isometry3d::Identity()}}});
+    RigidObject ground = FixedObject(RigidSurface{"plane", Plane{}});
+    ground.name = world_frame;
+    objects.push_back(std::move(ground));
   } else {
-    links = ReadSceneUrdf(scene_description);
+    objects = ReadSceneUrdf(scene_description);
   }
-  for (SceneLink& link : links) {
+  for (RigidObject& object : objects) {
     PlacedLink placed;
-    placed.link = std::move(link);
+    placed.object = std::move(object);
     links_.push_back(std::move(placed));
   }
 }
@@ -37,25 +39,22 @@ void World::Update(const tf2_ros::Buffer& tf, Simulator* simulator) {
     link_is_new = link_is_new || placed.known != was_known;
   }
 
-  std::vector<RigidSurface> surfaces;
-  int index = 0;
+  std::vector<RigidObject> objects;
   for (const PlacedLink& placed : links_) {
     if (!placed.known) continue;
-    for (RigidSurface surface : placed.link.surfaces) {
-      surface.X_WS = placed.X_WL * surface.X_WS;
-      if (!link_is_new) simulator->SetSurfacePose(index, surface.X_WS);
-      surfaces.push_back(std::move(surface));
-      ++index;
+    if (!link_is_new) {
+      simulator->SetObjectPose(static_cast<int>(objects.size()), placed.object.X_WO);
     }
+    objects.push_back(placed.object);
   }
-  if (link_is_new) simulator->SetSurfaces(std::move(surfaces));
+  if (link_is_new) simulator->SetObjects(std::move(objects));
 }
 
 bool World::LookUp(const tf2_ros::Buffer& tf, PlacedLink* placed) {
-  const std::string& frame = placed->link.name;
+  const std::string& frame = placed->object.name;
   try {
     ros::Time stamp;
-    placed->X_WL = LookUpFrame(frame, world_frame_, tf, &stamp);
+    placed->object.X_WO = LookUpFrame(frame, world_frame_, tf, &stamp);
     placed->missing = ros::WallTime();
     if (IsStale(stamp) && throttle_.Pass("stale " + frame)) {
       ROS_WARN("tf has not updated scene link '%s' for a while: it stays where it was last seen",

@@ -12,7 +12,7 @@
 
 namespace vacuum_gripper_sim {
 
-/** The rigid surfaces around the cup, kept where tf says they are.
+/** The rigid objects around the cup, kept where tf says they are.
 
  A link that tf does not know yet is not in the world; it enters when tf knows it. A link that tf
  loses stays where it was last seen. Both are said in throttled warnings. */
@@ -22,15 +22,14 @@ class World {
       @throws std::invalid_argument, see ReadSceneUrdf(). */
   World(const std::string& scene_description, const std::string& world_frame);
 
-  /// Looks every link up and moves the simulator's surfaces there.
+  /// Looks every link up and moves the simulator's objects there.
   void Update(const tf2_ros::Buffer& tf, Simulator* simulator);
 
  private:
   struct PlacedLink {
-    SceneLink link;
+    RigidObject object;     // X_WO: where tf has it, or had it last
     bool known{false};      // Has tf ever placed it?
     ros::WallTime missing;  // Since when it has not been found; zero: it has.
-    Eigen::Isometry3d X_WL{Eigen::Isometry3d::Identity()};
   };
 
   // Where tf has the link now; its last pose if tf has lost it. False if tf never knew it.

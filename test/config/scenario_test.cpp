@@ -49,8 +49,8 @@ TEST_F(ScenarioFile, MinimalOneHasDefaults) {
   EXPECT_EQ(scenario.duration, 1.0);
   EXPECT_FALSE(scenario.stop_after_loss.has_value());
   EXPECT_EQ(scenario.num_steps(), 100);
-  ASSERT_EQ(scenario.surfaces.size(), 1U);
-  EXPECT_TRUE(std::holds_alternative<Plane>(scenario.surfaces[0].shape));
+  ASSERT_EQ(scenario.objects.size(), 1U);
+  EXPECT_TRUE(std::holds_alternative<Plane>(scenario.objects[0].surfaces[0].shape));
   ASSERT_EQ(scenario.timeline.size(), 3U);
   EXPECT_EQ(scenario.timeline[2].pressure_setpoint, -6000.0);
 }
@@ -63,12 +63,13 @@ surfaces:
   - {type: cylinder, radius: 0.05, length: 0.06}
   - {type: plane, rotation: [0.1, 0.0, 0.0]}
 )");
-  ASSERT_EQ(scenario.surfaces.size(), 4U);
-  EXPECT_EQ(scenario.surfaces[0].name, "lid");
-  EXPECT_EQ(std::get<Box>(scenario.surfaces[0].shape).size, Eigen::Vector3d(0.1, 0.2, 0.3));
-  EXPECT_EQ(scenario.surfaces[0].X_WS.translation(), Eigen::Vector3d(0.0, 0.0, -0.15));
-  EXPECT_EQ(std::get<Sphere>(scenario.surfaces[1].shape).radius, 0.04);
-  EXPECT_EQ(std::get<Cylinder>(scenario.surfaces[2].shape).length, 0.06);
+  ASSERT_EQ(scenario.objects.size(), 4U);
+  EXPECT_EQ(scenario.objects[0].name, "lid");
+  EXPECT_EQ(std::get<Box>(scenario.objects[0].surfaces[0].shape).size,
+            Eigen::Vector3d(0.1, 0.2, 0.3));
+  EXPECT_EQ(scenario.objects[0].surfaces[0].X_FS.translation(), Eigen::Vector3d(0.0, 0.0, -0.15));
+  EXPECT_EQ(std::get<Sphere>(scenario.objects[1].surfaces[0].shape).radius, 0.04);
+  EXPECT_EQ(std::get<Cylinder>(scenario.objects[2].surfaces[0].shape).length, 0.06);
 }
 
 TEST_F(ScenarioFile, ReadsASceneWithJoints) {
@@ -78,8 +79,9 @@ TEST_F(ScenarioFile, ReadsASceneWithJoints) {
                    "</joint><link name=\"plate\"><collision><origin xyz=\"0 0 0.05\"/><geometry>"
                    "<box size=\"1 1 0.1\"/></geometry></collision></link></robot>");
   const Scenario scenario = Read(std::string(kMinimal) + "scene: scene.urdf\n");
-  ASSERT_EQ(scenario.surfaces.size(), 1U);
-  EXPECT_NEAR(scenario.surfaces[0].X_WS.translation().z(), -0.05, 1e-15);
+  ASSERT_EQ(scenario.objects.size(), 1U);
+  EXPECT_NEAR((scenario.objects[0].X_WO * scenario.objects[0].surfaces[0].X_FS).translation().z(),
+              -0.05, 1e-15);
   EXPECT_TRUE(Contains(Error(std::string(kMinimal) + "scene: nothing.urdf\n"), "nothing.urdf"));
   EXPECT_TRUE(Contains(Error(std::string(kMinimal) + "scene: scene.urdf\nsurfaces: []\n"),
                        "scene = scene.urdf"));

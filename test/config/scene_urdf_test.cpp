@@ -24,7 +24,7 @@ std::string Error(const std::string& xml) {
 }
 
 TEST(SceneUrdf, ReadsShapesAndPoses) {
-  const std::vector<SceneLink> links = ReadSceneUrdf(
+  const std::vector<RigidObject> links = ReadSceneUrdf(
       Robot("<link name=\"world\"/>"
             "<joint name=\"j\" type=\"fixed\"><parent link=\"world\"/><child link=\"table\"/>"
             "<origin xyz=\"0 0 0.5\" rpy=\"0 0 1.5707963267948966\"/></joint>"
@@ -35,7 +35,7 @@ TEST(SceneUrdf, ReadsShapesAndPoses) {
             "<collision><geometry><cylinder radius=\"0.5\" length=\"2\"/></geometry></collision>"
             "</link>"));
   ASSERT_EQ(links.size(), 1U);  // the world has no surface
-  const SceneLink& table = links[0];
+  const RigidObject& table = links[0];
   EXPECT_EQ(table.name, "table");
   ASSERT_EQ(table.surfaces.size(), 3U);
   EXPECT_EQ(std::get<Box>(table.surfaces[0].shape).size, Eigen::Vector3d(1.0, 2.0, 3.0));
@@ -43,10 +43,10 @@ TEST(SceneUrdf, ReadsShapesAndPoses) {
   EXPECT_EQ(std::get<Cylinder>(table.surfaces[2].shape).radius, 0.5);
   EXPECT_EQ(std::get<Cylinder>(table.surfaces[2].shape).length, 2.0);
   // Pitch of 90 degrees takes the box's x to -z of the link.
-  EXPECT_TRUE((table.surfaces[0].X_WS * Eigen::Vector3d::UnitX())
+  EXPECT_TRUE((table.surfaces[0].X_FS * Eigen::Vector3d::UnitX())
                   .isApprox(Eigen::Vector3d(0.1, 0.0, -1.0), 1e-12));
   // The joint lifts the link and turns its x to y of the root.
-  EXPECT_TRUE((table.X_RL * Eigen::Vector3d::UnitX()).isApprox(Eigen::Vector3d(0, 1, 0.5), 1e-12));
+  EXPECT_TRUE((table.X_WO * Eigen::Vector3d::UnitX()).isApprox(Eigen::Vector3d(0, 1, 0.5), 1e-12));
 }
 
 TEST(SceneUrdf, RefusesWhatIsNoUrdf) {

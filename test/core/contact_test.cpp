@@ -11,9 +11,9 @@ namespace {
 /// = 1.
 std::vector<RigidSurface> SheetAndSphere() {
   RigidSurface sheet{"sheet", Box{{10.0, 10.0, 0.001}}};
-  sheet.X_WS.translation().z() = -0.0005;
+  sheet.X_FS.translation().z() = -0.0005;
   RigidSurface sphere{"sphere", Sphere{0.01}};
-  sphere.X_WS.translation() = Eigen::Vector3d(1.0, 0.0, 0.01);
+  sphere.X_FS.translation() = Eigen::Vector3d(1.0, 0.0, 0.01);
   return {sheet, sphere};
 }
 
@@ -37,22 +37,21 @@ TEST(NarrowPhase, SeesANodePassThroughAThinSheet) {
   NarrowPhase narrow_phase;
   narrow_phase.Begin(surfaces, {0, 1, 2}, x0);
 
-  const std::vector<Contact> reaching =
-      narrow_phase.Select(x1, [](const Contact& contact) { return contact.gap < 0.0; });
+  const std::vector<NodeContact> reaching =
+      narrow_phase.Select(x1, [](const NodeContact& contact) { return contact.gap < 0.0; });
   ASSERT_EQ(reaching.size(), 1U);
   EXPECT_EQ(reaching[0].node, 0);
   EXPECT_EQ(reaching[0].surface, 0);
   EXPECT_NEAR(reaching[0].gap, -0.003, 1e-15);
   EXPECT_LT((reaching[0].normal - Eigen::Vector3d::UnitZ()).norm(), 1e-15);
 
-  const std::vector<Contact> near = narrow_phase.Select(
-      x1, [](const Contact& contact) { return contact.surface == 0 && contact.gap < 5e-4; });
+  const std::vector<NodeContact> near = narrow_phase.Select(
+      x1, [](const NodeContact& contact) { return contact.surface == 0 && contact.gap < 5e-4; });
   ASSERT_EQ(near.size(), 2U);
   EXPECT_EQ(near[1].node, 1);
   EXPECT_NEAR(near[1].gap, 2e-4, 1e-15);
 
-  EXPECT_NEAR(narrow_phase.Ahead(0, 0, x1).gap, -0.003, 1e-15);
-  EXPECT_NEAR(narrow_phase.At(0, 0, x1).gap, 0.002, 1e-15);  // measured anew: the other side
+  EXPECT_NEAR(narrow_phase.Ahead(0, x1).gap, -0.003, 1e-15);
 }
 
 }  // namespace

@@ -12,7 +12,7 @@ using Eigen::Vector3d;
 
 RigidSurface At(const Shape& shape, const Vector3d& position = Vector3d::Zero()) {
   RigidSurface surface{"thing", shape};
-  surface.X_WS.translation() = position;
+  surface.X_FS.translation() = position;
   return surface;
 }
 
@@ -27,7 +27,7 @@ TEST(Distance, Plane) {
   RigidSurface plane = At(Plane{}, {0.0, 0.0, 0.1});
   ExpectDistance(plane, {3.0, 2.0, 0.3}, 0.2, Vector3d::UnitZ());
   ExpectDistance(plane, {3.0, 2.0, 0.0}, -0.1, Vector3d::UnitZ());
-  plane.X_WS.linear() = Eigen::AngleAxisd(M_PI / 2.0, Vector3d::UnitY()).matrix();  // z -> x
+  plane.X_FS.linear() = Eigen::AngleAxisd(M_PI / 2.0, Vector3d::UnitY()).matrix();  // z -> x
   ExpectDistance(plane, {0.4, 5.0, 6.0}, 0.4, Vector3d::UnitX());
 }
 
@@ -61,7 +61,7 @@ TEST(Distance, NormalIsTheGradient) {
   for (const Shape& shape : {Shape(Plane{}), Shape(Box{{0.3, 0.2, 0.4}}), Shape(Sphere{0.2}),
                              Shape(Cylinder{0.2, 0.3})}) {
     RigidSurface surface = At(shape, {0.1, -0.2, 0.3});
-    surface.X_WS.linear() = Eigen::AngleAxisd(0.9, Vector3d(1.0, 1.0, -0.5).normalized()).matrix();
+    surface.X_FS.linear() = Eigen::AngleAxisd(0.9, Vector3d(1.0, 1.0, -0.5).normalized()).matrix();
     for (int i = 0; i < 50; ++i) {
       const Vector3d p(0.6 * std::sin(1.0 + i), 0.6 * std::cos(2.0 * i), 0.6 * std::sin(3.0 * i));
       const double step = 1e-6;
@@ -93,7 +93,7 @@ TEST(ValidateSurface, RefusesBadNumbersByName) {
   expect_refused(At(Cylinder{1.0, nan}), "length");
   expect_refused(At(Plane{}, {0.0, nan, 0.0}), "pose");
   RigidSurface scaled = At(Plane{});
-  scaled.X_WS.linear() *= 2.0;
+  scaled.X_FS.linear() *= 2.0;
   expect_refused(scaled, "pose");
 }
 

@@ -39,7 +39,7 @@ class GripCycle {
       : X_AW_(X_AW),
         h_(parameters.time_step),
         simulator_(std::move(mesh), TurnGravity(parameters), MountPose(kCupLength + 1e-4)) {
-    simulator_.SetSurfaces({RigidSurface{"plate", Plane{}, X_AW_}});
+    simulator_.SetObjects({FixedObject(RigidSurface{"plate", Plane{}, X_AW_})});
   }
 
   /// Moves the mount to `height` above the plane at `speed` and steps on for `then` seconds.

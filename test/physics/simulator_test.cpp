@@ -186,16 +186,16 @@ TEST(Simulator, MovingSurfacePressesTheCup) {
   GripCycle down(LoadBell("linear_700"), A20(0.01));
   down.Drive(kCupLength - 0.001, 0.01, 0.0, 0.3);
   GripCycle up(LoadBell("linear_700"), A20(0.01));
-  Eigen::Isometry3d X_WS = Eigen::Isometry3d::Identity();
+  Eigen::Isometry3d X_WO = Eigen::Isometry3d::Identity();
   for (int i = 0; i < 50; ++i) {
-    X_WS.translation().z() = std::min(0.0011, X_WS.translation().z() + 1e-4);
-    up.simulator().SetSurfacePose(0, X_WS);
+    X_WO.translation().z() = std::min(0.0011, X_WO.translation().z() + 1e-4);
+    up.simulator().SetObjectPose(0, X_WO);
     up.Step(0.0);
   }
   EXPECT_NEAR(up.result().force_M.z(), down.result().force_M.z(), 1e-5);
-  EXPECT_THROW(up.simulator().SetSurfacePose(1, X_WS), std::out_of_range);
-  X_WS.translation().z() = kNan;
-  EXPECT_THROW(up.simulator().SetSurfacePose(0, X_WS), std::invalid_argument);
+  EXPECT_THROW(up.simulator().SetObjectPose(1, X_WO), std::out_of_range);
+  X_WO.translation().z() = kNan;
+  EXPECT_THROW(up.simulator().SetObjectPose(0, X_WO), std::invalid_argument);
 }
 
 TEST(Simulator, RefusesBadParametersByName) {

@@ -75,8 +75,8 @@ TEST(SolverPaths, AnOldFactorisationHoldsOnASphereToo) {
     parameters.linear_solver.method = method;
     GripCycle cycle(LoadBell("linear_700"), parameters);
     RigidSurface ball{"ball", Sphere{0.15}};
-    ball.X_WS.translation().z() = -0.149;
-    cycle.simulator().SetSurfaces({ball});
+    ball.X_FS.translation().z() = -0.149;
+    cycle.simulator().SetObjects({FixedObject(ball)});
     cycle.Drive(kCupLength - 0.001, 0.01, 0.0, 0.2);
     EXPECT_EQ(cycle.undone_steps, 0);
     EXPECT_LE(cycle.max_penetration, 1e-6);
@@ -98,8 +98,8 @@ TEST(SolverPaths, ReclassifyingWithinTheStepAgrees) {
 std::pair<double, double> PressAndHoldOn(const Shape& shape, const Eigen::Vector3d& center) {
   GripCycle cycle(LoadBell("linear_700"), A20(0.01));
   RigidSurface surface{"thing", shape};
-  surface.X_WS.translation() = center;
-  cycle.simulator().SetSurfaces({surface});
+  surface.X_FS.translation() = center;
+  cycle.simulator().SetObjects({FixedObject(surface)});
   cycle.Drive(kCupLength - 0.001, 0.01, 0.0, 0.2);
   const double pressed = cycle.result().force_M.z();
   cycle.Drive(kCupLength - 0.001, 0.01, -4000.0, 0.3);
@@ -130,9 +130,9 @@ TEST(SolverPaths, CurvedSurfacesAreNotPenetrated) {
   PressAndHoldOn(Sphere{radius}, {0.0, 0.0, -std::sqrt(radius * radius - 0.01875 * 0.01875)});
   GripCycle cycle(LoadBell("linear_700"), A20(0.01));
   RigidSurface cylinder{"pipe", Cylinder{0.5, 1.0}};
-  cylinder.X_WS.linear() = Eigen::AngleAxisd(M_PI / 2.0, Eigen::Vector3d::UnitX()).matrix();
-  cylinder.X_WS.translation().z() = -0.5;
-  cycle.simulator().SetSurfaces({cylinder});
+  cylinder.X_FS.linear() = Eigen::AngleAxisd(M_PI / 2.0, Eigen::Vector3d::UnitX()).matrix();
+  cylinder.X_FS.translation().z() = -0.5;
+  cycle.simulator().SetObjects({FixedObject(cylinder)});
   cycle.Drive(kCupLength - 0.002, 0.01, 0.0, 0.2);
   EXPECT_GT(cycle.result().num_contacts, 0U);
   EXPECT_LE(cycle.max_penetration, 1e-6);
@@ -143,8 +143,8 @@ TEST(SolverPaths, CurvedSurfacesAreNotPenetrated) {
 TEST(SolverPaths, OverAnEdgeItDoesNotSeal) {
   GripCycle cycle(LoadBell("linear_700"), A20(0.01));
   RigidSurface box{"box", Box{{0.2, 0.2, 0.02}}};
-  box.X_WS.translation() = Eigen::Vector3d(0.1, 0.0, -0.01);
-  cycle.simulator().SetSurfaces({box});
+  box.X_FS.translation() = Eigen::Vector3d(0.1, 0.0, -0.01);
+  cycle.simulator().SetObjects({FixedObject(box)});
   cycle.Drive(kCupLength - 0.001, 0.01, -6000.0, 0.2);
   EXPECT_EQ(cycle.result().status, SealStatus::kOpen);
   EXPECT_EQ(cycle.result().gauge_pressure, 0.0);

@@ -7,7 +7,7 @@
 #include "vacuum_gripper_sim/config/cup_file.h"
 #include "vacuum_gripper_sim/config/timeline.h"
 #include "vacuum_gripper_sim/core/parameters.h"
-#include "vacuum_gripper_sim/core/rigid_surface.h"
+#include "vacuum_gripper_sim/core/rigid_object.h"
 
 namespace vacuum_gripper_sim {
 
@@ -15,8 +15,8 @@ namespace vacuum_gripper_sim {
 struct Scenario {
   std::string name;
   Cup cup;
-  SimulatorParameters parameters;  ///< Time step, material and damping included; validated.
-  std::vector<RigidSurface> surfaces;
+  SimulatorParameters parameters;         ///< Time step, material and damping included; validated.
+  std::vector<RigidObject> objects;       ///< The world.
   double duration{0.0};                   ///< [s] > 0
   std::optional<double> stop_after_loss;  ///< The run ends this long after the loss. [s] >= 0
   std::vector<Keyframe> timeline;         ///< Of the mount, in the world.

@@ -1,25 +1,17 @@
 #pragma once
 
-#include <Eigen/Geometry>
 #include <string>
 #include <vector>
 
-#include "vacuum_gripper_sim/core/rigid_surface.h"
+#include "vacuum_gripper_sim/core/rigid_object.h"
 
 namespace vacuum_gripper_sim {
 
-/// A link of the scene: a tf frame with rigid surfaces fixed to it.
-struct SceneLink {
-  std::string name;                    ///< Link name = tf frame.
-  std::vector<RigidSurface> surfaces;  ///< X_WS holds the pose in the link's frame, X_LS.
-  /// Pose in the URDF's root link with all joints at zero: where the link is without tf.
-  Eigen::Isometry3d X_RL{Eigen::Isometry3d::Identity()};
-};
-
-/** Reads the collision geometry of a URDF with urdfdom: box, sphere, cylinder. Links without
- collision elements are left out.
+/** Reads the collision geometry of a URDF with urdfdom: box, sphere, cylinder. Every link with
+ collision elements becomes an object, named as the link, which is its tf frame, and placed in the
+ URDF's root link as all joints at zero have it.
  @throws std::invalid_argument naming the link and the reason: not a URDF, a size that is not finite
    or not positive, a mesh (not supported yet), no collision geometry at all. */
-std::vector<SceneLink> ReadSceneUrdf(const std::string& xml);
+std::vector<RigidObject> ReadSceneUrdf(const std::string& xml);
 
 }  // namespace vacuum_gripper_sim

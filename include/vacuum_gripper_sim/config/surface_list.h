@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "vacuum_gripper_sim/core/rigid_surface.h"
+#include "vacuum_gripper_sim/core/rigid_object.h"
 
 namespace vacuum_gripper_sim {
 
@@ -14,10 +14,10 @@ namespace vacuum_gripper_sim {
  `position` [m] (default: the origin) and `rotation` (default: none).
  @param name Dotted path of the list, for messages.
  @throws std::invalid_argument naming the key, its value and what is allowed. */
-std::vector<RigidSurface> ReadSurfaces(const YAML::Node& node, const std::string& name);
+std::vector<RigidObject> ReadObjects(const YAML::Node& node, const std::string& name);
 
 /// Reads a URDF's collision geometry, its links where the joints at zero put them and its root link
 /// at the world's origin. @throws std::invalid_argument naming the file and the reason.
-std::vector<RigidSurface> ReadSceneFile(const std::string& path);
+std::vector<RigidObject> ReadSceneFile(const std::string& path);
 
 }  // namespace vacuum_gripper_sim

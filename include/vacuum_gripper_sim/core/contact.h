@@ -9,7 +9,7 @@
 namespace vacuum_gripper_sim {
 
 /// One row of H_c: a node that may not pass a surface.
-struct Contact {
+struct NodeContact {
   int node{0};             ///< Mesh node.
   int surface{0};          ///< Index of the rigid surface.
   double gap{0.0};         ///< Signed distance; < 0: penetrating. [m]
@@ -38,27 +38,29 @@ class NarrowPhase {
 
   /// The pairs, with their gap at x1, of which `wanted` is true. Nodes ascending.
   template <typename Predicate>
-  std::vector<Contact> Select(const Eigen::Matrix3Xd& x1_W, const Predicate& wanted) const {
-    std::vector<Contact> contacts;
-    for (std::size_t i = 0; i < seen_.size(); ++i) {
-      const Contact contact = Ahead(i, x1_W);
+  std::vector<NodeContact> Select(const Eigen::Matrix3Xd& x1_W, const Predicate& wanted) const {
+    std::vector<NodeContact> contacts;
+    for (int i = 0; i < num_pairs(); ++i) {
+      const NodeContact contact = Ahead(i, x1_W);
       if (wanted(contact)) contacts.push_back(contact);
     }
     return contacts;
   }
 
-  /// Gap of a pair at x1, seen from its start.
-  Contact Ahead(int node, int surface, const Eigen::Matrix3Xd& x1_W) const;
-  /// The pair measured where it is.
-  Contact At(int node, int surface, const Eigen::Matrix3Xd& x_W) const;
+  /// Pairs are numbered by node, then by surface.
+  int num_pairs() const { return static_cast<int>(seen_.size()); }
+  int node(int pair) const { return nodes_[static_cast<std::size_t>(pair) / surfaces_->size()]; }
+  int surface(int pair) const { return pair % static_cast<int>(surfaces_->size()); }
+  /// From the start.
+  const SurfaceDistance& seen(int pair) const { return seen_[static_cast<std::size_t>(pair)]; }
+  /// The pair with its gap at x1, seen from its start.
+  NodeContact Ahead(int pair, const Eigen::Matrix3Xd& x1_W) const;
 
  private:
-  Contact Ahead(std::size_t pair, const Eigen::Matrix3Xd& x1_W) const;
-
   const std::vector<RigidSurface>* surfaces_{nullptr};
   std::vector<int> nodes_;
   Eigen::Matrix3Xd x0_W_;
-  std::vector<SurfaceDistance> seen_;  // by watched node and surface, node-major
+  std::vector<SurfaceDistance> seen_;
 };
 
 }  // namespace vacuum_gripper_sim

@@ -28,17 +28,19 @@ struct Cylinder {
 
 using Shape = std::variant<Plane, Box, Sphere, Cylinder>;
 
-/// A rigid obstacle that the cup touches; its pose may be changed between steps.
+/// A rigid surface in a frame F: that of the object it is fixed to, or the world where it is
+/// placed.
 struct RigidSurface {
   std::string name;  ///< For messages: the URDF link or the scenario's key.
   Shape shape;
-  Eigen::Isometry3d X_WS{Eigen::Isometry3d::Identity()};  ///< Pose of S in the world.
+  Eigen::Isometry3d X_FS{Eigen::Isometry3d::Identity()};  ///< Pose of S in F.
+  double friction{0.0};                                   ///< Coulomb's mu. [-] >= 0
 };
 
 /// What a point sees of a surface.
 struct SurfaceDistance {
   double distance{0.0};    ///< Signed; negative inside the solid. [m]
-  Eigen::Vector3d normal;  ///< Unit gradient of the distance: out of the solid, world axes.
+  Eigen::Vector3d normal;  ///< Unit gradient of the distance: out of the solid, axes of F.
 };
 
 /** Signed distance of a point to a surface and the direction out of it.
@@ -46,15 +48,15 @@ struct SurfaceDistance {
  Exact inside and outside. Where the nearest point is not unique (a sphere's centre, a box's middle)
  one of the directions is returned, always a unit vector.
 
- @param p_W The point, world frame. [m] */
-SurfaceDistance Distance(const RigidSurface& surface, const Eigen::Vector3d& p_W);
+ @param p_F The point. [m] */
+SurfaceDistance Distance(const RigidSurface& surface, const Eigen::Vector3d& p_F);
 
 /// Is X finite and its linear part a rotation (within 1e-6)?
 bool IsRigidMotion(const Eigen::Isometry3d& X);
 
 /** Checks a surface's numbers.
  @throws std::invalid_argument naming the surface, the field, its value and what is allowed: sizes
-   finite and > 0, the pose finite and a rotation. */
+   finite and > 0, friction finite and >= 0, the pose finite and a rotation. */
 void Validate(const RigidSurface& surface);
 
 }  // namespace vacuum_gripper_sim

@@ -6,13 +6,13 @@
 
 #include "vacuum_gripper_sim/core/cavity_surface.h"
 #include "vacuum_gripper_sim/core/parameters.h"
-#include "vacuum_gripper_sim/core/rigid_surface.h"
+#include "vacuum_gripper_sim/core/rigid_object.h"
 #include "vacuum_gripper_sim/core/step_result.h"
 #include "vacuum_gripper_sim/core/tet_mesh.h"
 
 namespace vacuum_gripper_sim {
 
-/** A suction cup on rigid surfaces, advanced step by step as in [Bernardin, Sec. III-A].
+/** A suction cup among rigid objects, advanced step by step as in [Bernardin, Sec. III-A].
 
  The mount frame M (`cup_frame`) has its origin on the cup's axis at the height of the mount's top
  and z along suction, out of the cup: p_M = (x, -y, z_top - z) for a mesh point (x, y, z).
@@ -31,13 +31,16 @@ class Simulator {
   Simulator(Simulator&&) noexcept;
   Simulator& operator=(Simulator&&) noexcept;
 
-  /// Replaces the world. @throws std::invalid_argument, see Validate(const RigidSurface&).
-  void SetSurfaces(std::vector<RigidSurface> surfaces);
-  const std::vector<RigidSurface>& surfaces() const;
+  /// Replaces the world; free objects start at rest.
+  /// @throws std::invalid_argument, see Validate(const RigidObject&).
+  void SetObjects(std::vector<RigidObject> objects);
+  /// Where they are now.
+  const std::vector<RigidObject>& objects() const;
 
-  /// Moves surface `index` for the steps to come. @throws std::invalid_argument if the pose is not
-  /// finite, std::out_of_range for an unknown index.
-  void SetSurfacePose(int index, const Eigen::Isometry3d& X_WS);
+  /// Moves object `index` for the steps to come; a free one comes to rest there.
+  /// @throws std::invalid_argument if the pose is not finite, std::out_of_range for an unknown
+  /// index.
+  void SetObjectPose(int index, const Eigen::Isometry3d& X_WO);
 
   /** Advances the cup by one time step h.
 
@@ -49,7 +52,7 @@ class Simulator {
    @returns the result, valid until the next call of a non-const member. */
   const StepResult& Step(const Command& command);
 
-  /// Rest shape at a pose, at rest, vented. Simulated time goes on.
+  /// Rest shape at a pose, at rest, vented. Simulated time goes on; objects stay where they are.
   void Reset(const Eigen::Isometry3d& X_WM);
 
   const StepResult& result() const;  ///< Of the last step, or the state at start.

@@ -29,6 +29,15 @@ enum class StepOutcome {
   kNonFinite,    ///< The state stopped being finite; the step was undone.
 };
 
+/// What a step did to an object.
+struct ObjectResult {
+  Eigen::Isometry3d X_WO{Eigen::Isometry3d::Identity()};        ///< Its pose.
+  Eigen::Vector3d velocity_W{Eigen::Vector3d::Zero()};          ///< Of a free one's origin. [m/s]
+  Eigen::Vector3d angular_velocity_W{Eigen::Vector3d::Zero()};  ///< Of a free one. [rad/s]
+  Eigen::Vector3d force_W{Eigen::Vector3d::Zero()};   ///< Of the cup on it, pressure included. [N]
+  Eigen::Vector3d torque_W{Eigen::Vector3d::Zero()};  ///< About its origin. [N m]
+};
+
 /// Wall time of the parts of one step. [s]
 struct StepTimings {
   double assembly{0.0};        ///< Internal forces, stiffness, A and b.
@@ -61,13 +70,16 @@ struct StepResult {
   double cavity_area{0.0};          ///< Projected on the suction axis. [m^2]
   double cavity_volume{0.0};        ///< Up to the plane across the edge of those points. [m^3]
   double contact_force{0.0};        ///< Sum of the contacts' normal forces. [N]
-  std::uint32_t num_contacts{0};    ///< Contacts that carry load.
+  double friction_force{0.0};       ///< Size of the tangential forces' sum. [N]
+  std::uint32_t num_contacts{0};    ///< Contacts of the cup that carry load.
   std::uint32_t num_candidates{0};  ///< Contact constraints in the problem.
   double max_penetration{0.0};      ///< Over all free surface nodes, >= 0. [m]
 
   Eigen::Matrix3Xd x_W;           ///< Deformed positions of all mesh nodes, 3 by #nodes. [m]
   Classification classification;  ///< Of the cavity points at the step's end.
   std::vector<double> gap;        ///< Signed distance of each cavity point; +inf: no surface. [m]
+
+  std::vector<ObjectResult> objects;  ///< In the order of Simulator::SetObjects().
 
   int solver_iterations{0};     ///< Of the last contact solve.
   double solver_residual{0.0};  ///< max_i |min(delta_i, lambda_i W_ii)|. [m]

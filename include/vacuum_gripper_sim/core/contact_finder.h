@@ -1,0 +1,92 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "vacuum_gripper_sim/core/body_contacts.h"
+#include "vacuum_gripper_sim/core/contact.h"
+#include "vacuum_gripper_sim/core/rigid_world.h"
+
+namespace vacuum_gripper_sim {
+
+/** Two points that may not pass each other: one of the cup or of a rigid object, the other of an
+ object. Its gap changes by
+
+     d(gap) = n . (sum_k w_k dx_k + dp_other - dp_object),
+
+ x_k being nodes of the cup, none for two objects. */
+struct Contact {
+  std::uint64_t key{0};  ///< The same for the same two things in the next step.
+  int num_nodes{0};
+  std::array<int, 4> nodes{};       ///< Of the cup; the first `num_nodes` count.
+  std::array<double, 4> weights{};  ///< w. [-]
+  int object{RigidWorld::kNone};    ///< The normal points out of it.
+  int other{RigidWorld::kNone};     ///< What touches it in the cup's place.
+  Eigen::Vector3d p_W;              ///< Where, when the step begins. [m]
+  Eigen::Vector3d normal;           ///< World axes.
+  double gap{0.0};                  ///< < 0: penetrating. [m]
+  Eigen::Vector3d slip_W;           ///< Of the one over the other since the step began. [m]
+  double friction{0.0};             ///< Coulomb's mu. [-]
+};
+
+/// The end of a step as a trial has it.
+struct TrialEnd {
+  Eigen::Matrix3Xd x_W;                                ///< All nodes, 3 by #nodes. [m]
+  Eigen::VectorXd dV;                                  ///< Of the free bodies, 6 #bodies.
+  const std::vector<RigidSurface>* surfaces{nullptr};  ///< Where they are then, in the world.
+};
+
+/** Finds what touches: the cup's nodes and the objects, the objects among each other.
+
+ Gaps are measured along the normal seen when the step begins (Ahead), see NarrowPhase, or anew
+ where a trial ends (At). Friction between two objects is the geometric mean of theirs. */
+class ContactFinder {
+ public:
+  /// @param nodes That may touch objects, ascending.
+  explicit ContactFinder(std::vector<int> nodes) : nodes_(std::move(nodes)) {}
+
+  /// Starts a step. @param world Must outlive it. @param x0_W All nodes, 3 by #nodes. [m]
+  /// @param h Time step. [s]
+  void Begin(const RigidWorld& world, const Eigen::Matrix3Xd& x0_W, double h);
+
+  /// The contacts, as seen ahead, of which `wanted(key, gap)` is true; in an order that depends on
+  /// nothing else.
+  template <typename Predicate>
+  std::vector<Contact> Select(const TrialEnd& end, const Predicate& wanted) const {
+    std::vector<Contact> contacts;
+    for (int i = 0; i < narrow_phase_.num_pairs(); ++i) {
+      if (wanted(NodeKey(i), NodeGap(i, end))) contacts.push_back(Ahead(NodeKey(i), end));
+    }
+    for (const BodyContacts::Pair& pair : body_contacts_.pairs()) {
+      if (wanted(BodyKey(pair), BodyGap(pair, end))) contacts.push_back(Ahead(BodyKey(pair), end));
+    }
+    return contacts;
+  }
+
+  Contact Ahead(std::uint64_t key, const TrialEnd& end) const;
+  Contact At(std::uint64_t key, const TrialEnd& end) const;
+
+ private:
+  // A key is the pair's number in its detector, and which one that is.
+  static constexpr std::uint64_t kBodyKeys = std::uint64_t{1} << 40;
+  static std::uint64_t NodeKey(int pair) { return static_cast<std::uint64_t>(pair); }
+  static std::uint64_t BodyKey(const BodyContacts::Pair& pair) { return kBodyKeys + pair.id; }
+
+  double NodeGap(int pair, const TrialEnd& end) const;
+  double BodyGap(const BodyContacts::Pair& pair, const TrialEnd& end) const;
+  Contact NodeAgainst(int pair, const SurfaceDistance& seen, double gap, const TrialEnd& end) const;
+  Contact BodyAgainst(const BodyContacts::Pair& pair, const SurfaceDistance& seen, double gap,
+                      const TrialEnd& end) const;
+
+  std::vector<int> nodes_;
+  const RigidWorld* world_{nullptr};
+  Eigen::Matrix3Xd x0_W_;
+  double h_{0.0};
+  NarrowPhase narrow_phase_;
+  BodyContacts body_contacts_;
+};
+
+}  // namespace vacuum_gripper_sim

@@ -1,0 +1,107 @@
+#include "vacuum_gripper_sim/core/body_contacts.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <variant>
+
+namespace vacuum_gripper_sim {
+namespace {
+
+using Eigen::Vector3d;
+
+/// A point that feels, in the frame of its surface S.
+struct Feeler {
+  Vector3d p_S;
+  double radius{0.0};
+};
+
+constexpr int kPointsAlongAnEdge = 3;  // between its corners
+constexpr int kPointsAlongARim = 8;    // besides the deepest one
+
+// How many there are does not depend on `into`: their numbers name them from step to step.
+// @param into Direction, in S, in which the other surface lies.
+
+std::vector<Feeler> Feelers(const Plane&, const Vector3d& /*into*/) { return {}; }
+
+std::vector<Feeler> Feelers(const Sphere& sphere, const Vector3d& /*into*/) {
+  return {{Vector3d::Zero(), sphere.radius}};
+}
+
+std::vector<Feeler> Feelers(const Box& box, const Vector3d& /*into*/) {
+  std::vector<Feeler> feelers;
+  const Vector3d half = 0.5 * box.size;
+  for (int along = 0; along < 3; ++along) {
+    for (int side = 0; side < 4; ++side) {
+      Vector3d p = half;
+      if ((side & 1) != 0) p((along + 1) % 3) *= -1.0;
+      if ((side & 2) != 0) p((along + 2) % 3) *= -1.0;
+      // Corners belong to the edges along x.
+      const int first = along == 0 ? 0 : 1;
+      const int last = kPointsAlongAnEdge + (along == 0 ? 1 : 0);
+      for (int i = first; i <= last; ++i) {
+        p(along) = half(along) * (2.0 * i / (kPointsAlongAnEdge + 1) - 1.0);
+        feelers.push_back({p, 0.0});
+      }
+    }
+  }
+  return feelers;
+}
+
+std::vector<Feeler> Feelers(const Cylinder& cylinder, const Vector3d& into) {
+  std::vector<Feeler> feelers;
+  const double deepest = std::atan2(into.y(), into.x());
+  for (const double side : {-0.5, 0.5}) {
+    for (int i = -1; i < kPointsAlongARim; ++i) {
+      const double angle = i < 0 ? deepest : 2.0 * M_PI * i / kPointsAlongARim;
+      feelers.push_back({{cylinder.radius * std::cos(angle), cylinder.radius * std::sin(angle),
+                          side * cylinder.length},
+                         0.0});
+    }
+  }
+  return feelers;
+}
+
+}  // namespace
+
+void BodyContacts::Begin(const RigidWorld& world, double reach) {
+  pairs_.clear();
+  if (world.num_bodies() == 0) return;
+  const std::vector<RigidSurface>& surfaces = world.surfaces();
+  const auto num_surfaces = static_cast<int>(surfaces.size());
+  std::uint32_t id = 0;
+  for (int i = 0; i < num_surfaces; ++i) {
+    const RigidSurface& felt_out = surfaces[static_cast<std::size_t>(i)];
+    const int other = world.ObjectOf(i);
+    for (int surface = 0; surface < num_surfaces; ++surface) {
+      const int object = world.ObjectOf(surface);
+      if (object == other ||
+          (world.BodyOf(object) == RigidWorld::kNone && world.BodyOf(other) == RigidWorld::kNone)) {
+        continue;
+      }
+      const RigidSurface& against = surfaces[static_cast<std::size_t>(surface)];
+      const Vector3d into_W = -Distance(against, felt_out.X_FS.translation()).normal;
+      const Vector3d into = felt_out.X_FS.linear().transpose() * into_W;
+      const std::vector<Feeler> feelers =
+          std::visit([&](const auto& shape) { return Feelers(shape, into); }, felt_out.shape);
+      for (const Feeler& feeler : feelers) {
+        Pair pair;
+        pair.id = id++;
+        pair.feeling = i;
+        pair.surface = surface;
+        pair.p_W = felt_out.X_FS * feeler.p_S;
+        pair.radius = feeler.radius;
+        pair.seen = Distance(against, pair.p_W);
+        pair.seen.distance -= feeler.radius;
+        if (pair.seen.distance < reach) pairs_.push_back(pair);
+      }
+    }
+  }
+}
+
+const BodyContacts::Pair& BodyContacts::Find(std::uint32_t id) const {
+  return *std::lower_bound(pairs_.begin(), pairs_.end(), id,
+                           [](const Pair& pair, std::uint32_t value) { return pair.id < value; });
+}
+
+}  // namespace vacuum_gripper_sim

@@ -1,0 +1,169 @@
+#include "vacuum_gripper_sim/core/constraint_operator.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cstddef>
+
+namespace vacuum_gripper_sim {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+void ConstraintOperator::Reset(const SparseCholesky& factorization, const RigidWorld& world,
+                               double h) {
+  world_ = &world;
+  h_ = h;
+  cup_.Reset(factorization, h);
+  plain_column_.clear();
+  columns_of_.clear();
+  num_columns_ = 0;
+  plain_ = true;
+  num_rows_ = 0;
+  rows_.clear();
+  bodies_.clear();
+  for (int body = 0; body < world.num_bodies(); ++body) {
+    bodies_.push_back({world.CentreOfMass(body), world.Mass(body).inverse()});
+  }
+}
+
+bool ConstraintOperator::MayBePlain(const Contact& contact) const {
+  return contact.num_nodes == 1 && contact.friction == 0.0 && contact.object != RigidWorld::kNone &&
+         world_->BodyOf(contact.object) == RigidWorld::kNone;
+}
+
+Eigen::Matrix3d ConstraintOperator::Axes(const Contact& contact) {
+  Eigen::Matrix3d axes;
+  axes.col(0) = contact.normal;
+  axes.col(1) = contact.normal.unitOrthogonal();
+  axes.col(2) = contact.normal.cross(axes.col(1));
+  return axes;
+}
+
+void ConstraintOperator::SetContacts(const std::vector<Contact>& contacts) {
+  AddColumns(contacts);
+  plain_ = std::all_of(plain_column_.begin(), plain_column_.end(),
+                       [](int column) { return column >= 0; });
+  SetRows(contacts);
+  if (!plain_) UpdateW();
+}
+
+void ConstraintOperator::AddColumns(const std::vector<Contact>& contacts) {
+  std::vector<NodeColumn> columns;
+  const auto next_column = [&] { return num_columns_ + static_cast<int>(columns.size()); };
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    const Contact& contact = contacts[i];
+    if (i >= plain_column_.size()) {
+      plain_column_.push_back(MayBePlain(contact) ? next_column() : -1);
+      if (MayBePlain(contact)) {
+        columns.push_back({system_->FreeRow(contact.nodes[0]) / 3, contact.normal});
+      }
+    }
+    if (IsPlain(i)) continue;
+    for (int k = 0; k < contact.num_nodes; ++k) {
+      const int node = contact.nodes[static_cast<std::size_t>(k)];
+      const int row = system_->FreeRow(node);
+      if (row < 0 || !columns_of_.emplace(node, next_column()).second) continue;
+      for (int axis = 0; axis < 3; ++axis) {
+        columns.push_back({row / 3, Eigen::Vector3d::Unit(axis)});
+      }
+    }
+  }
+  cup_.Append(columns);
+  num_columns_ += static_cast<int>(columns.size());
+}
+
+void ConstraintOperator::SetRows(const std::vector<Contact>& contacts) {
+  rows_.clear();
+  num_rows_ = 0;
+  for (const Contact& contact : contacts) {
+    rows_.push_back({num_rows_, contact.friction});
+    num_rows_ += contact.friction > 0.0 ? 3 : 1;
+  }
+  if (plain_) return;
+
+  std::vector<Eigen::Triplet<double>> entries;
+  J_.setZero(num_rows_, 6 * static_cast<Index>(bodies_.size()));
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    const Contact& contact = contacts[i];
+    const Eigen::Matrix3d axes = Axes(contact);
+    const Index first = rows_[i].normal;
+    const Index num_axes = rows_[i].has_tangents() ? 3 : 1;
+    if (IsPlain(i)) {
+      entries.emplace_back(static_cast<int>(first), plain_column_[i], 1.0);
+      continue;
+    }
+    for (int k = 0; k < contact.num_nodes; ++k) {
+      const auto place = columns_of_.find(contact.nodes[static_cast<std::size_t>(k)]);
+      if (place == columns_of_.end()) continue;  // clamped
+      const double weight = contact.weights[static_cast<std::size_t>(k)];
+      for (Index axis = 0; axis < num_axes; ++axis) {
+        for (int xyz = 0; xyz < 3; ++xyz) {
+          entries.emplace_back(static_cast<int>(first + axis), place->second + xyz,
+                               weight * axes(xyz, axis));
+        }
+      }
+    }
+    AddBodyEntries(contact, contact.object, -1.0, first);
+    AddBodyEntries(contact, contact.other, 1.0, first);
+  }
+  H_.resize(num_rows_, num_columns_);
+  H_.setFromTriplets(entries.begin(), entries.end());
+}
+
+void ConstraintOperator::AddBodyEntries(const Contact& contact, int object, double sign,
+                                        Index row) {
+  if (object == RigidWorld::kNone || world_->BodyOf(object) == RigidWorld::kNone) return;
+  const int body = world_->BodyOf(object);
+  const Eigen::Vector3d arm = contact.p_W - bodies_[static_cast<std::size_t>(body)].c_W;
+  const Eigen::Matrix3d axes = Axes(contact);
+  for (Index axis = 0; axis < (contact.friction > 0.0 ? 3 : 1); ++axis) {
+    const Eigen::Vector3d d = axes.col(axis);
+    J_.block<1, 3>(row + axis, 6 * body) += sign * d.transpose();
+    J_.block<1, 3>(row + axis, 6 * body + 3) += sign * arm.cross(d).transpose();
+  }
+}
+
+void ConstraintOperator::UpdateW() {
+  const Eigen::MatrixXd H_A_inverse = H_ * cup_.W();  // with its h^2
+  W_ = H_A_inverse * H_.transpose();
+  for (std::size_t body = 0; body < bodies_.size(); ++body) {
+    const auto J_b = J_.middleCols<6>(6 * static_cast<Index>(body));
+    W_.noalias() += h_ * h_ * (J_b * bodies_[body].M_inverse).eval() * J_b.transpose();
+  }
+}
+
+VectorXd ConstraintOperator::BodyVelocities(const VectorXd& b) const {
+  VectorXd dV(b.size());
+  for (std::size_t body = 0; body < bodies_.size(); ++body) {
+    const auto first = 6 * static_cast<Index>(body);
+    dV.segment<6>(first) = bodies_[body].M_inverse * b.segment<6>(first);
+  }
+  return dV;
+}
+
+VectorXd ConstraintOperator::GapChanges(const VectorXd& y, const VectorXd& dV) const {
+  if (plain_) return cup_.GapChanges(y);
+  return H_ * cup_.GapChanges(y) + h_ * J_ * dV;
+}
+
+void ConstraintOperator::AddForces(const VectorXd& lambda, VectorXd* y, VectorXd* dV) const {
+  if (plain_) {
+    cup_.AddForces(lambda, y);
+    return;
+  }
+  cup_.AddForces(H_.transpose() * lambda, y);
+  *dV += BodyVelocities(h_ * J_.transpose() * lambda);
+}
+
+void ConstraintOperator::AddImpulses(const VectorXd& lambda, VectorXd* b,
+                                     VectorXd* b_bodies) const {
+  if (plain_) {
+    cup_.AddImpulses(lambda, b);
+    return;
+  }
+  cup_.AddImpulses(H_.transpose() * lambda, b);
+  *b_bodies += h_ * J_.transpose() * lambda;
+}
+
+}  // namespace vacuum_gripper_sim

@@ -1,0 +1,115 @@
+#include "vacuum_gripper_sim/core/contact_finder.h"
+
+#include <cmath>
+
+namespace vacuum_gripper_sim {
+namespace {
+
+/// Objects farther apart than this when a step begins do not meet during it. [m]
+constexpr double kBodyReach = 0.02;
+
+}  // namespace
+
+void ContactFinder::Begin(const RigidWorld& world, const Eigen::Matrix3Xd& x0_W, double h) {
+  world_ = &world;
+  x0_W_ = x0_W;
+  h_ = h;
+  narrow_phase_.Begin(world.surfaces(), nodes_, x0_W);
+  body_contacts_.Begin(world, kBodyReach);
+}
+
+double ContactFinder::NodeGap(int pair, const TrialEnd& end) const {
+  double gap = narrow_phase_.Ahead(pair, end.x_W).gap;
+  const int object = world_->ObjectOf(narrow_phase_.surface(pair));
+  if (world_->BodyOf(object) != RigidWorld::kNone) {
+    const SurfaceDistance& seen = narrow_phase_.seen(pair);
+    const Eigen::Vector3d p_W = x0_W_.col(narrow_phase_.node(pair)) - seen.distance * seen.normal;
+    gap -= seen.normal.dot(world_->Displacement(object, p_W, end.dV, h_));
+  }
+  return gap;
+}
+
+double ContactFinder::BodyGap(const BodyContacts::Pair& pair, const TrialEnd& end) const {
+  const Eigen::Vector3d& n = pair.seen.normal;
+  const Eigen::Vector3d p_W = pair.p_W - pair.radius * n;
+  const Eigen::Vector3d q_W = p_W - pair.seen.distance * n;
+  const int object = world_->ObjectOf(pair.surface);
+  // The object that is put somewhere is seen there from the start.
+  const auto moved = [&](int index, const Eigen::Vector3d& point_W) {
+    return world_->BodyOf(index) == RigidWorld::kNone
+               ? 0.0
+               : n.dot(world_->Displacement(index, point_W, end.dV, h_));
+  };
+  return pair.seen.distance + moved(world_->ObjectOf(pair.feeling), pair.p_W) - moved(object, q_W);
+}
+
+Contact ContactFinder::NodeAgainst(int pair, const SurfaceDistance& seen, double gap,
+                                   const TrialEnd& end) const {
+  const int node = narrow_phase_.node(pair);
+  const int surface = narrow_phase_.surface(pair);
+  const SurfaceDistance& start = narrow_phase_.seen(pair);
+  Contact contact;
+  contact.key = NodeKey(pair);
+  contact.num_nodes = 1;
+  contact.nodes[0] = node;
+  contact.weights[0] = 1.0;
+  contact.object = world_->ObjectOf(surface);
+  contact.p_W = x0_W_.col(node) - start.distance * start.normal;
+  contact.normal = seen.normal;
+  contact.gap = gap;
+  contact.friction = world_->surfaces()[static_cast<std::size_t>(surface)].friction;
+  if (contact.friction > 0.0) {
+    contact.slip_W = end.x_W.col(node) - x0_W_.col(node) -
+                     world_->Displacement(contact.object, contact.p_W, end.dV, h_);
+  }
+  return contact;
+}
+
+Contact ContactFinder::BodyAgainst(const BodyContacts::Pair& pair, const SurfaceDistance& seen,
+                                   double gap, const TrialEnd& end) const {
+  Contact contact;
+  contact.key = BodyKey(pair);
+  contact.object = world_->ObjectOf(pair.surface);
+  contact.other = world_->ObjectOf(pair.feeling);
+  contact.p_W = pair.p_W - pair.radius * pair.seen.normal;
+  contact.normal = seen.normal;
+  contact.gap = gap;
+  const std::vector<RigidSurface>& surfaces = world_->surfaces();
+  contact.friction = std::sqrt(surfaces[static_cast<std::size_t>(pair.feeling)].friction *
+                               surfaces[static_cast<std::size_t>(pair.surface)].friction);
+  contact.slip_W = world_->Displacement(contact.other, contact.p_W, end.dV, h_) -
+                   world_->Displacement(contact.object, contact.p_W, end.dV, h_);
+  return contact;
+}
+
+Contact ContactFinder::Ahead(std::uint64_t key, const TrialEnd& end) const {
+  if (key >= kBodyKeys) {
+    const BodyContacts::Pair& pair =
+        body_contacts_.Find(static_cast<std::uint32_t>(key - kBodyKeys));
+    return BodyAgainst(pair, pair.seen, BodyGap(pair, end), end);
+  }
+  const auto pair = static_cast<int>(key);
+  return NodeAgainst(pair, narrow_phase_.seen(pair), NodeGap(pair, end), end);
+}
+
+Contact ContactFinder::At(std::uint64_t key, const TrialEnd& end) const {
+  if (key >= kBodyKeys) {
+    const BodyContacts::Pair& pair =
+        body_contacts_.Find(static_cast<std::uint32_t>(key - kBodyKeys));
+    const int other = world_->ObjectOf(pair.feeling);
+    Eigen::Vector3d p_W = pair.p_W;
+    if (world_->BodyOf(other) != RigidWorld::kNone) {
+      p_W += world_->Displacement(other, pair.p_W, end.dV, h_);
+    }
+    const SurfaceDistance seen =
+        Distance((*end.surfaces)[static_cast<std::size_t>(pair.surface)], p_W);
+    return BodyAgainst(pair, seen, seen.distance - pair.radius, end);
+  }
+  const auto pair = static_cast<int>(key);
+  const SurfaceDistance seen =
+      Distance((*end.surfaces)[static_cast<std::size_t>(narrow_phase_.surface(pair))],
+               end.x_W.col(narrow_phase_.node(pair)));
+  return NodeAgainst(pair, seen, seen.distance, end);
+}
+
+}  // namespace vacuum_gripper_sim
