@@ -56,7 +56,8 @@ CupFacePoint CupFaces::Describe(const Candidate& nearest, const Eigen::Vector3d&
     result.position_W += result.weights(k) * x_W_.col(node);
   }
   const Eigen::Vector3d outward =
-      Pseudonormal(triangles_, x_W_, topology_, nearest.face, result.weights);
+      Pseudonormal(triangles_, x_W_, topology_, nearest.face, result.weights,
+                   [&](int face) { return TriangleNormal(triangles_, x_W_, face); });
   const Eigen::Vector3d way = p_W - result.position_W;
   const double length = std::sqrt(nearest.at.squared_distance);
   const double sign = way.dot(outward) < 0.0 ? -1.0 : 1.0;

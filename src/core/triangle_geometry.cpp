@@ -106,29 +106,4 @@ Vector3d TriangleNormal(const Matrix3Xi& triangles, const Matrix3Xd& vertices, i
   return (b - a).cross(c - a).stableNormalized();
 }
 
-Vector3d Pseudonormal(const Matrix3Xi& triangles, const Matrix3Xd& vertices,
-                      const TriangleTopology& topology, int t, const Vector3d& weights) {
-  Vector3d normal = Vector3d::Zero();
-  for (int k = 0; k < 3; ++k) {
-    if (weights(k) != 1.0) continue;
-    const int vertex = triangles(k, t);
-    const int end = topology.corners_begin[Index(vertex) + 1];
-    for (int i = topology.corners_begin[Index(vertex)]; i < end; ++i) {
-      const int corner = topology.corners[Index(i)];
-      normal += CornerAngle(triangles, vertices, corner / 3, corner % 3) *
-                TriangleNormal(triangles, vertices, corner / 3);
-    }
-    return normal;
-  }
-  normal = TriangleNormal(triangles, vertices, t);
-  for (int k = 0; k < 3; ++k) {
-    if (weights((k + 2) % 3) != 0.0) continue;  // not on the side that begins at k
-    const int neighbor = topology.neighbors(k, t);
-    if (neighbor != TriangleTopology::kNone) {
-      normal += TriangleNormal(triangles, vertices, neighbor);
-    }
-  }
-  return normal;
-}
-
 }  // namespace vacuum_gripper_sim

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <cstddef>
 #include <vector>
 
 namespace vacuum_gripper_sim {
@@ -44,9 +45,38 @@ Eigen::Vector3d TriangleNormal(const Eigen::Matrix3Xi& triangles, const Eigen::M
  nearest point: of the face; on an edge the sum of both faces' normals; at a corner the sum of all,
  weighted by their angles there. Not of unit length. [J. A. Baerentzen, H. Aanaes, "Signed Distance
  Computation Using the Angle Weighted Pseudonormal", IEEE TVCG 11(3), 2005]
- @param t Triangle with the nearest point. @param weights Of the nearest point. */
+ @param t Triangle with the nearest point. @param weights Of the nearest point.
+ @param normal_of Unit normal of a triangle, by its index; zero for a flat one. */
+template <typename NormalOf>
 Eigen::Vector3d Pseudonormal(const Eigen::Matrix3Xi& triangles, const Eigen::Matrix3Xd& vertices,
                              const TriangleTopology& topology, int t,
-                             const Eigen::Vector3d& weights);
+                             const Eigen::Vector3d& weights, const NormalOf& normal_of) {
+  const auto index = [](int i) { return static_cast<std::size_t>(i); };
+  const auto around = [&](int vertex, const auto& visit) {
+    const int end = topology.corners_begin[index(vertex) + 1];
+    for (int i = topology.corners_begin[index(vertex)]; i < end; ++i) {
+      visit(topology.corners[index(i)] / 3, topology.corners[index(i)] % 3);
+    }
+  };
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();
+  for (int k = 0; k < 3; ++k) {
+    if (weights((k + 1) % 3) != 0.0 || weights((k + 2) % 3) != 0.0) continue;
+    around(triangles(k, t), [&](int other, int corner) {
+      normal += CornerAngle(triangles, vertices, other, corner) * normal_of(other);
+    });
+    return normal;
+  }
+  for (int k = 0; k < 3; ++k) {
+    if (weights((k + 2) % 3) != 0.0) continue;  // not on the side from k to k + 1
+    const int neighbor = topology.neighbors(k, t);
+    if (neighbor != TriangleTopology::kNone) return normal_of(t) + normal_of(neighbor);
+    const int end = triangles((k + 1) % 3, t);
+    around(triangles(k, t), [&](int other, int) {
+      if ((triangles.col(other).array() == end).any()) normal += normal_of(other);
+    });
+    return normal;
+  }
+  return normal_of(t);
+}
 
 }  // namespace vacuum_gripper_sim
