@@ -43,7 +43,7 @@ void ApplyOverrides(const std::vector<std::string>& assignments, const Directori
 std::vector<RigidSurface> ReadWorld(ParameterReader* reader, const Directories& directories) {
   const YAML::Node list = reader->GetNode("surfaces");
   if (!reader->Has("scene")) {
-    if (reader->Has("surfaces")) return ReadSurfaces(list, "surfaces");
+    if (reader->Has("surfaces")) return ReadSurfaces(list, "surfaces", directories.scenario);
     RigidSurface ground;
     ground.name = "ground";
     ground.shape = Plane{};

@@ -16,10 +16,11 @@ struct SceneLink {
   Eigen::Isometry3d X_RL{Eigen::Isometry3d::Identity()};
 };
 
-/** Reads the collision geometry of a URDF with urdfdom: box, sphere, cylinder. Links without
+/** Reads the collision geometry of a URDF with urdfdom: box, sphere, cylinder, mesh. Links without
  collision elements are left out.
+ @param directory Where relative paths of meshes start; empty: they are refused.
  @throws std::invalid_argument naming the link and the reason: not a URDF, a size that is not finite
-   or not positive, a mesh (not supported yet), no collision geometry at all. */
-std::vector<SceneLink> ReadSceneUrdf(const std::string& xml);
+   or not positive, a mesh that cannot be read (see MeshFiles), no collision geometry at all. */
+std::vector<SceneLink> ReadSceneUrdf(const std::string& xml, const std::string& directory = "");
 
 }  // namespace vacuum_gripper_sim

@@ -17,11 +17,11 @@ namespace vacuum_gripper_sim {
  longest side, ties by index, so that the tree is the same everywhere and a flat sheet in any
  direction divides well. Refit() follows primitives that move and keeps the division.
 
- Why not a library's tree: Eigen's KdBVH divides along x, y and z in turn, whatever the shape, which
- serves flat sheets badly, keeps its boxes to itself (no refit) and allocates for each query;
- Embree's stores boxes in single precision, 0.5 um off at 10 m, its rtcPointQuery has other
- arguments in version 4 than in 3 and the core would lose its sole dependency on Eigen; FCL has
- neither the nearest feature nor a bound on the search. docs/architecture.md has the times. */
+ Why not a library's tree. Eigen's KdBVH divides along x, y and z in turn, whatever the shape, keeps
+ its boxes to itself (no refit) and allocates for every query: a sweep of 866 nodes over 100 000
+ triangles takes 6.3 ms against 1.1 ms here. Embree's rtcPointQuery takes 1.0 ms, but sees points
+ and boxes in single precision (.5 um at 10 m), has another interface in version 4 than in 3, and
+ would end the core's sole dependency on Eigen. FCL gives no nearest feature to take a sign from. */
 class BoxTree {
  public:
   BoxTree() = default;
