@@ -223,6 +223,17 @@ TEST(MeshFile, EveryMistakeIsOneLineWithFieldAndUri) {
   EXPECT_TRUE(Contains(ErrorOf([] { MeshFiles().Load("mesh", "a.stl", kOnes); }), "relative path"));
 }
 
+TEST(MeshFile, TheScannedThingThatShipsIsASolid) {
+  const Mesh mesh = MeshFiles().Load(
+      "mesh", "package://vacuum_gripper_sim/meshes/scenes/scanned_thing.stl", kOnes);
+  EXPECT_EQ(mesh->num_triangles(), 5120);
+  EXPECT_TRUE(mesh->closed());
+  EXPECT_EQ(mesh->num_shells(), 1);
+  EXPECT_EQ(mesh->turned_triangles(), 0);
+  EXPECT_LT(mesh->Nearest(Vector3d::Zero())->distance, -0.02);
+  EXPECT_LT(mesh->bounds().sizes().maxCoeff(), 0.1);
+}
+
 TEST(MeshFile, InScenesAndLists) {
   const TempDirectory directory;
   directory.Write("box.stl", BinaryStl(MakeBoxMesh(1, 1000.0 * kSize)));
