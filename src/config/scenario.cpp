@@ -43,7 +43,7 @@ void ApplyOverrides(const std::vector<std::string>& assignments, const Directori
 std::vector<RigidObject> ReadWorld(ParameterReader* reader, const Directories& directories) {
   const YAML::Node list = reader->GetNode("surfaces");
   if (!reader->Has("scene")) {
-    if (reader->Has("surfaces")) return ReadObjects(list, "surfaces");
+    if (reader->Has("surfaces")) return ReadObjects(list, "surfaces", directories.scenario);
     RigidSurface ground;
     ground.name = "ground";
     ground.shape = Plane{};

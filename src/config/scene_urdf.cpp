@@ -8,6 +8,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "vacuum_gripper_sim/config/mesh_file.h"
+
 namespace vacuum_gripper_sim {
 namespace {
 
@@ -54,7 +56,7 @@ Eigen::Isometry3d ToIsometry(const urdf::Pose& pose) {
   return X;
 }
 
-Shape ToShape(const urdf::Geometry& geometry, const std::string& link) {
+Shape ToShape(const urdf::Geometry& geometry, const std::string& link, MeshFiles* meshes) {
   switch (geometry.type) {
     case urdf::Geometry::BOX: {
       const urdf::Vector3& dim = static_cast<const urdf::Box&>(geometry).dim;
@@ -66,24 +68,29 @@ Shape ToShape(const urdf::Geometry& geometry, const std::string& link) {
       const auto& cylinder = static_cast<const urdf::Cylinder&>(geometry);
       return Cylinder{cylinder.radius, cylinder.length};
     }
+    case urdf::Geometry::MESH: {
+      const auto& mesh = static_cast<const urdf::Mesh&>(geometry);
+      return meshes->Load("scene: link " + link + ": mesh filename", mesh.filename,
+                          {mesh.scale.x, mesh.scale.y, mesh.scale.z});
+    }
     default:
       throw std::invalid_argument("scene: link " + link +
-                                  ": a collision mesh is not supported; expected box, sphere or "
-                                  "cylinder");
+                                  ": unknown collision geometry; expected box, sphere, cylinder "
+                                  "or mesh");
   }
 }
 
-std::vector<RigidSurface> ReadSurfaces(const urdf::Link& link) {
+std::vector<RigidSurface> ReadSurfaces(const urdf::Link& link, MeshFiles* meshes) {
   std::vector<RigidSurface> surfaces;
   for (const urdf::CollisionSharedPtr& collision : link.collision_array) {
     if (collision == nullptr || collision->geometry == nullptr) {
       throw std::invalid_argument("scene: link " + link.name +
-                                  ": a collision element without geometry; expected box, sphere "
-                                  "or cylinder");
+                                  ": a collision element without geometry; expected box, sphere, "
+                                  "cylinder or mesh");
     }
     RigidSurface surface;
     surface.name = link.name;
-    surface.shape = ToShape(*collision->geometry, link.name);
+    surface.shape = ToShape(*collision->geometry, link.name, meshes);
     surface.X_FS = ToIsometry(collision->origin);
     try {
       Validate(surface);
@@ -96,29 +103,30 @@ std::vector<RigidSurface> ReadSurfaces(const urdf::Link& link) {
 }
 
 /// Depth first from the root, so that parents come before their children.
-void Collect(const urdf::Link& link, const Eigen::Isometry3d& X_RL,
+void Collect(const urdf::Link& link, const Eigen::Isometry3d& X_RL, MeshFiles* meshes,
              std::vector<RigidObject>* objects) {
   RigidObject object;
   object.name = link.name;
-  object.surfaces = ReadSurfaces(link);
+  object.surfaces = ReadSurfaces(link, meshes);
   object.X_WO = X_RL;
   if (!object.surfaces.empty()) objects->push_back(std::move(object));
   for (const urdf::LinkSharedPtr& child : link.child_links) {
     Collect(*child, X_RL * ToIsometry(child->parent_joint->parent_to_joint_origin_transform),
-            objects);
+            meshes, objects);
   }
 }
 
 }  // namespace
 
-std::vector<RigidObject> ReadSceneUrdf(const std::string& xml) {
+std::vector<RigidObject> ReadSceneUrdf(const std::string& xml, const std::string& directory) {
   const urdf::ModelInterfaceSharedPtr model = Parse(xml);
+  MeshFiles meshes(directory);
   std::vector<RigidObject> objects;
-  Collect(*model->getRoot(), Eigen::Isometry3d::Identity(), &objects);
+  Collect(*model->getRoot(), Eigen::Isometry3d::Identity(), &meshes, &objects);
   if (objects.empty()) {
     throw std::invalid_argument("scene: robot " + model->getName() +
-                                " has no collision geometry; expected at least one box, sphere or "
-                                "cylinder");
+                                " has no collision geometry; expected at least one box, sphere, "
+                                "cylinder or mesh");
   }
   return objects;
 }

@@ -1,6 +1,8 @@
 #include "vacuum_gripper_sim/core/contact_finder.h"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace vacuum_gripper_sim {
 namespace {
@@ -101,7 +103,7 @@ Contact ContactFinder::Ahead(std::uint64_t key, const TrialEnd& end) const {
   return NodeAgainst(pair, narrow_phase_.seen(pair), NodeGap(pair, end), end);
 }
 
-Contact ContactFinder::At(std::uint64_t key, const TrialEnd& end) const {
+Contact ContactFinder::At(std::uint64_t key, const TrialEnd& end) {
   if (key >= kBodyKeys) {
     const BodyContacts::Pair& pair =
         body_contacts_.Find(static_cast<std::uint32_t>(key - kBodyKeys));
@@ -115,10 +117,23 @@ Contact ContactFinder::At(std::uint64_t key, const TrialEnd& end) const {
     return BodyAgainst(pair, seen, seen.distance - pair.radius, end);
   }
   const auto pair = static_cast<int>(key);
-  const SurfaceDistance seen =
-      Distance((*end.surfaces)[static_cast<std::size_t>(narrow_phase_.surface(pair))],
-               end.x_W.col(narrow_phase_.node(pair)));
-  return NodeAgainst(pair, seen, seen.distance, end);
+  const NodeContact there = narrow_phase_.At(pair, *end.surfaces, end.x_W);
+  return NodeAgainst(pair, {there.gap, there.normal}, there.gap, end);
+}
+
+int ContactFinder::NearestSurface(int node) const {
+  const auto place = std::lower_bound(nodes_.begin(), nodes_.end(), node) - nodes_.begin();
+  const auto num_surfaces = static_cast<int>(world_->surfaces().size());
+  int nearest = 0;
+  double nearest_distance = std::numeric_limits<double>::infinity();
+  for (int surface = 0; surface < num_surfaces; ++surface) {
+    const double distance =
+        narrow_phase_.seen(static_cast<int>(place) * num_surfaces + surface).distance;
+    if (distance >= nearest_distance) continue;
+    nearest_distance = distance;
+    nearest = surface;
+  }
+  return nearest;
 }
 
 }  // namespace vacuum_gripper_sim

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <utility>
 #include <vector>
@@ -46,8 +47,12 @@ struct TrialEnd {
  where a trial ends (At). Friction between two objects is the geometric mean of theirs. */
 class ContactFinder {
  public:
-  /// @param nodes That may touch objects, ascending.
-  explicit ContactFinder(std::vector<int> nodes) : nodes_(std::move(nodes)) {}
+  /// @param nodes To be measured, ascending. @param may_touch Which of them objects may touch.
+  ContactFinder(std::vector<int> nodes, std::vector<bool> may_touch)
+      : nodes_(std::move(nodes)), may_touch_(std::move(may_touch)) {}
+
+  /// Forgets what the last step saw, as when there are other objects.
+  void Forget() { narrow_phase_.Forget(); }
 
   /// Starts a step. @param world Must outlive it. @param x0_W All nodes, 3 by #nodes. [m]
   /// @param h Time step. [s]
@@ -59,6 +64,7 @@ class ContactFinder {
   std::vector<Contact> Select(const TrialEnd& end, const Predicate& wanted) const {
     std::vector<Contact> contacts;
     for (int i = 0; i < narrow_phase_.num_pairs(); ++i) {
+      if (!may_touch_[PlaceOf(i)]) continue;
       if (wanted(NodeKey(i), NodeGap(i, end))) contacts.push_back(Ahead(NodeKey(i), end));
     }
     for (const BodyContacts::Pair& pair : body_contacts_.pairs()) {
@@ -68,7 +74,14 @@ class ContactFinder {
   }
 
   Contact Ahead(std::uint64_t key, const TrialEnd& end) const;
-  Contact At(std::uint64_t key, const TrialEnd& end) const;
+  Contact At(std::uint64_t key, const TrialEnd& end);
+
+  /// Of each node to the surface nearest to it at a trial's end; +inf without surfaces. [m]
+  std::vector<double> Nearest(const TrialEnd& end) {
+    return narrow_phase_.Nearest(*end.surfaces, end.x_W);
+  }
+  /// The surface that is nearest to a node when the step begins.
+  int NearestSurface(int node) const;
 
  private:
   // A key is the pair's number in its detector, and which one that is.
@@ -76,6 +89,9 @@ class ContactFinder {
   static std::uint64_t NodeKey(int pair) { return static_cast<std::uint64_t>(pair); }
   static std::uint64_t BodyKey(const BodyContacts::Pair& pair) { return kBodyKeys + pair.id; }
 
+  std::size_t PlaceOf(int pair) const {
+    return static_cast<std::size_t>(pair) / world_->surfaces().size();
+  }
   double NodeGap(int pair, const TrialEnd& end) const;
   double BodyGap(const BodyContacts::Pair& pair, const TrialEnd& end) const;
   Contact NodeAgainst(int pair, const SurfaceDistance& seen, double gap, const TrialEnd& end) const;
@@ -83,6 +99,7 @@ class ContactFinder {
                       const TrialEnd& end) const;
 
   std::vector<int> nodes_;
+  std::vector<bool> may_touch_;
   const RigidWorld* world_{nullptr};
   Eigen::Matrix3Xd x0_W_;
   double h_{0.0};

@@ -83,8 +83,10 @@ class ContactStage {
    @returns false if A is not positive definite. */
   bool Solve(const Eigen::Matrix3Xd& load, ContactSolution* solution, StepTimings* timings);
 
-  /// Forgets the warm start, as after a reset.
+  /// Forgets the warm start, as after a step that was undone.
   void ForgetForces();
+  /// Forgets what was seen of the objects, too, as when there are others or the cup is elsewhere.
+  void ForgetWorld();
 
  private:
   /// A contact with its unknown: the force along normal and tangents, see ConstraintOperator.
@@ -115,7 +117,7 @@ class ContactStage {
   Eigen::VectorXd Stacked(Eigen::Vector3d Candidate::*values) const;
   void SetForces(const Eigen::VectorXd& lambda);
   void LoadObjects(const Eigen::Matrix3Xd& load);
-  void MeasureEnd(const TrialEnd& end, ContactSolution* solution) const;
+  void MeasureEnd(const TrialEnd& end, ContactSolution* solution);
   void Report(ContactSolution* solution) const;
 
   const ImplicitEuler* system_;
