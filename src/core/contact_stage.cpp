@@ -30,13 +30,13 @@ std::vector<bool> AreFree(const std::vector<int>& nodes, const ImplicitEuler& sy
 
 }  // namespace
 
-ContactStage::ContactStage(const ImplicitEuler& system, LinearSolver* solver,
+ContactStage::ContactStage(const TetMesh& mesh, const ImplicitEuler& system, LinearSolver* solver,
                            std::vector<int> surface_nodes, const ContactParameters& parameters)
     : system_(&system),
       solver_(solver),
       surface_nodes_(std::move(surface_nodes)),
       parameters_(parameters),
-      finder_(surface_nodes_, AreFree(surface_nodes_, system)),
+      finder_(mesh, surface_nodes_, AreFree(surface_nodes_, system)),
       operator_(system) {}
 
 void ContactStage::ForgetForces() {
@@ -295,6 +295,7 @@ bool ContactStage::SolveWithFactorization(const Impulse& impulse, ContactSolutio
 }
 
 void ContactStage::MeasureEnd(const TrialEnd& end, ContactSolution* solution) {
+  finder_.MoveTo(end);
   const std::vector<double> nearest = finder_.Nearest(end);
   solution->distance.assign(static_cast<std::size_t>(x0_.cols()),
                             std::numeric_limits<double>::infinity());
@@ -308,14 +309,16 @@ void ContactStage::MeasureEnd(const TrialEnd& end, ContactSolution* solution) {
   solution->error = -deepest;
   for (std::size_t i = 0; i < candidates_.size(); ++i) {
     const Candidate& candidate = candidates_[i];
-    double error = 0.0;
-    if (candidate.force.x() > 0.0) {
-      error = std::abs(finder_.At(candidate.contact.key, end).gap);
-    } else {  // refined forces may pull
-      const Index row = operator_.rows()[i].normal;
-      error = -candidate.force.x() * operator_.W()(row, row);
+    const bool is_node = candidate.contact.num_nodes == 1;  // measured above
+    const bool is_loaded = candidate.force.x() > 0.0;
+    if (is_loaded || !is_node) {
+      const double gap = finder_.At(candidate.contact.key, end).gap;
+      solution->error = std::max(solution->error, is_loaded ? std::abs(gap) : -gap);
     }
-    solution->error = std::max(solution->error, error);
+    if (!is_loaded) {  // refined forces may pull
+      const Index row = operator_.rows()[i].normal;
+      solution->error = std::max(solution->error, -candidate.force.x() * operator_.W()(row, row));
+    }
   }
 }
 

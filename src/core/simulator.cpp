@@ -91,7 +91,7 @@ class Simulator::Implementation {
         body_(mesh_, parameters.material),
         system_(body_, mesh_.mount_nodes),
         solver_(parameters.linear_solver, system_.A_ff()),
-        stage_(system_, &solver_, SurfaceNodes(mesh_), parameters.contact),
+        stage_(mesh_, system_, &solver_, SurfaceNodes(mesh_), parameters.contact),
         suction_(cavity_, parameters_.seal, parameters.regulator,
                  parameters.material.young_modulus) {
     Reset(X_WM);

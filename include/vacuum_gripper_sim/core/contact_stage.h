@@ -61,10 +61,11 @@ struct ContactSolution {
  held, and checked for forces that pull too. Friction and free bodies want the current one. */
 class ContactStage {
  public:
-  /** @param surface_nodes Nodes of the cup's surface, ascending. The clamped ones are measured, but
-     never in contact: the mount's motion is prescribed. All references must outlive this. */
-  ContactStage(const ImplicitEuler& system, LinearSolver* solver, std::vector<int> surface_nodes,
-               const ContactParameters& parameters);
+  /** @param mesh The cup at rest. @param surface_nodes Nodes of the cup's surface, ascending. The
+     clamped ones are measured, but never in contact: the mount's motion is prescribed. All
+     references must outlive this. */
+  ContactStage(const TetMesh& mesh, const ImplicitEuler& system, LinearSolver* solver,
+               std::vector<int> surface_nodes, const ContactParameters& parameters);
 
   /** Starts a step; forgets the last one's candidates unless its factorisation stays.
    @param world Must outlive the step. @param x,v State at the step's start, 3 by #nodes.
