@@ -113,6 +113,7 @@ class Simulator::Implementation {
   bool Advance(const Command& command);
   void ReportWrench(const SuctionSolution& solution, const Eigen::Matrix3Xd& dv_c);
   void ReportCavity(const SuctionSolution& solution);
+  void ReportOpening();
   void ReportCavitySize();
 
   Eigen::Matrix3Xd rest_M_;  // rest positions in the mount frame [m]
@@ -144,6 +145,7 @@ void Simulator::Implementation::Reset(const Eigen::Isometry3d& X_WM) {
   result_.gap = distance;
   result_.classification = Classify(cavity_, distance, *parameters_.seal.open_gap);
   result_.bottleneck_gap = result_.classification.bottleneck_gap;
+  ReportOpening();
   ReportCavitySize();
 }
 
@@ -276,6 +278,7 @@ void Simulator::Implementation::ReportCavity(const SuctionSolution& solution) {
   for (std::size_t i = 0; i < cavity_.nodes.size(); ++i) {
     result_.gap[i] = solution.contact.distance[static_cast<std::size_t>(cavity_.nodes[i])];
   }
+  ReportOpening();
   ReportCavitySize();
   result_.contact_force = solution.contact.lambda.sum();
   result_.num_contacts =
@@ -284,6 +287,11 @@ void Simulator::Implementation::ReportCavity(const SuctionSolution& solution) {
   result_.max_penetration = solution.contact.max_penetration;
   result_.linear_iterations = solver_.iterations();
   result_.factorizations = solver_.factorizations();
+}
+
+void Simulator::Implementation::ReportOpening() {
+  result_.opening = FindSealOpening(cavity_, result_.gap, result_.bottleneck_gap,
+                                    *parameters_.seal.open_gap, state_.x_W, result_.X_WM);
 }
 
 /// Area and volume of what the pressure acts on if the cavity is sealed.
