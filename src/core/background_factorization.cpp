@@ -4,8 +4,9 @@
 
 namespace vacuum_gripper_sim {
 
-BackgroundFactorization::BackgroundFactorization(const SparseCholesky& analyzed)
-    : factorization_(analyzed), worker_([this] { Run(); }) {}
+BackgroundFactorization::BackgroundFactorization(const SparseCholesky& analyzed,
+                                                 Precision precision)
+    : precision_(precision), factorization_(analyzed), worker_([this] { Run(); }) {}
 
 BackgroundFactorization::~BackgroundFactorization() {
   {
@@ -46,7 +47,7 @@ void BackgroundFactorization::Run() {
     if (stop_) return;
     lock.unlock();
     try {
-      positive_definite_ = factorization_.Factorize(A_);
+      positive_definite_ = factorization_.Factorize(A_, precision_);
     } catch (...) {
       error_ = std::current_exception();
     }

@@ -148,11 +148,10 @@ bool ContactStage::Refine(const Eigen::VectorXd& impulse, ContactSolution* solut
 bool ContactStage::Solve(const Eigen::Matrix3Xd& load, ContactSolution* solution,
                          StepTimings* timings) {
   const Eigen::VectorXd impulse = b_ + h_ * system_->GatherFree(load);
-  if (!SolveWithFactorization(impulse, solution, timings)) {
+  while (!SolveWithFactorization(impulse, solution, timings)) {
     const Stopwatch stopwatch(&timings->factorization);
     if (!solver_->Renew()) return false;
     FindCandidates();
-    SolveWithFactorization(impulse, solution, timings);
   }
   Report(solution);
   return true;

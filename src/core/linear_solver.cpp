@@ -71,7 +71,7 @@ LinearSolver::LinearSolver(const LinearSolverParameters& parameters,
     : parameters_(parameters) {
   factorization_.Analyze(A);
   if (parameters.method == LinearSolverMethod::kAsynchronous) {
-    background_ = std::make_unique<BackgroundFactorization>(factorization_);
+    background_ = std::make_unique<BackgroundFactorization>(factorization_, parameters.precision);
   }
 }
 
@@ -82,6 +82,7 @@ bool LinearSolver::Compute(const Eigen::SparseMatrix<double>& A) {
   ++step_;
   iterations_since_ += iterations_;
   iterations_ = 0;
+  iterations_before_ = 0;
   factorizations_ = 0;
 
   bool good = usable_;
@@ -121,7 +122,7 @@ bool LinearSolver::ExchangeWithBackground(bool worth_taking) {
 /// Will more than the step's iterations be needed at the pace so far?
 bool LinearSolver::Hopeless(int iterations, double start, double now, double bound) const {
   constexpr int kTrial = 2;
-  const int left = parameters_.max_iterations - iterations_;
+  const int left = parameters_.max_iterations - (iterations_ - iterations_before_);
   if (iterations < kTrial) return left <= 0;
   return now * std::pow(now / start, static_cast<double>(left) / iterations) > bound;
 }
@@ -134,9 +135,19 @@ bool LinearSolver::WornOut(int cost) const {
 }
 
 bool LinearSolver::Renew() {
-  usable_ = factorization_.Factorize(*A_);
+  const bool imprecise = usable_ && factorized_step_ == step_;
+  if (!imprecise && parameters_.precision == Precision::kSingle &&
+      FactorizeWith(Precision::kSingle)) {
+    return true;
+  }
+  return FactorizeWith(Precision::kDouble);
+}
+
+bool LinearSolver::FactorizeWith(Precision precision) {
+  usable_ = factorization_.Factorize(*A_, precision);
   factorized_step_ = step_;
   iterations_since_ = 0;
+  iterations_before_ = iterations_;
   ++generation_;
   ++factorizations_;
   return usable_;

@@ -44,6 +44,7 @@ class BendingBlock {
 LinearSolverParameters With(LinearSolverMethod method, int refactor_interval = 3) {
   LinearSolverParameters parameters;
   parameters.method = method;
+  parameters.precision = Precision::kDouble;
   parameters.tolerance = 1e-10;
   parameters.max_iterations = 50;
   parameters.refactor_interval = refactor_interval;
@@ -150,6 +151,30 @@ TEST(LinearSolver, GivesUpWhereAFactorisationIsTooOld) {
   EXPECT_LE(solver.iterations(), 3);
   ASSERT_TRUE(solver.Renew());
   EXPECT_TRUE(solver.current());
+  EXPECT_LT((block.Dense() * Solve(b, &solver) - b).norm(), 1e-9 * b.norm());
+}
+
+// A single-precision factor is never exact, and renewing it makes one that is.
+TEST(LinearSolver, IterationsMakeUpForSinglePrecision) {
+  BendingBlock block;
+  block.Linearize();
+  LinearSolverParameters parameters = With(LinearSolverMethod::kDirect);
+  parameters.precision = Precision::kSingle;
+  LinearSolver solver(parameters, block.A());
+  const Eigen::VectorXd b = Eigen::VectorXd::LinSpaced(block.A().cols(), -1.0, 1.0);
+  for (int step = 0; step < 3; ++step) {
+    block.Bend(0.05);
+    ASSERT_TRUE(solver.Compute(block.A()));
+    EXPECT_FALSE(solver.current());
+    EXPECT_EQ(solver.factorizations(), 1);
+    EXPECT_EQ(solver.factorization().precision(), Precision::kSingle);
+    EXPECT_LT((block.Dense() * Solve(b, &solver) - b).norm(), 2e-10 * b.norm());
+    EXPECT_GT(solver.iterations(), 0);
+    EXPECT_LE(solver.iterations(), 4);
+  }
+  ASSERT_TRUE(solver.Renew());
+  EXPECT_TRUE(solver.current());
+  EXPECT_EQ(solver.factorizations(), 2);
   EXPECT_LT((block.Dense() * Solve(b, &solver) - b).norm(), 1e-9 * b.norm());
 }
 

@@ -45,6 +45,69 @@ TEST(SolverPaths, ThePapersGaussSeidelIsNear) {
   ExpectSame(ForcesOf(parameters), active_set, 0.01);
 }
 
+/// Largest differences between two runs of a whole cycle, step by step.
+struct Difference {
+  double position{0.0};    // m
+  double force{0.0};       // relative to the largest
+  bool same_status{true};  // at every step
+};
+
+Difference WholeCycleDifference(const SimulatorParameters& parameters,
+                                const SimulatorParameters& expected, const std::string& bell) {
+  GripCycle cycle(LoadBell(bell), parameters);
+  GripCycle reference(LoadBell(bell), expected);
+  double largest_force = 0.0;
+  Difference difference;
+  const auto drive = [&](double height, double speed, double setpoint, double then) {
+    const int num_steps = static_cast<int>(
+        std::lround(std::abs(height - cycle.height()) / (speed * parameters.time_step) +
+                    then / parameters.time_step));
+    for (int i = 0; i < num_steps; ++i) {
+      for (GripCycle* const each : {&cycle, &reference}) {
+        const double way = height - each->height();
+        const double stride = std::min(std::abs(way), speed * parameters.time_step);
+        if (way == 0.0) {
+          each->Step(setpoint);
+        } else {
+          each->Drive(each->height() + std::copysign(stride, way), 1.0, setpoint);
+        }
+      }
+      const StepResult& a = cycle.result();
+      const StepResult& b = reference.result();
+      largest_force = std::max(largest_force, b.force_M.norm());
+      difference.position =
+          std::max(difference.position, (a.x_W - b.x_W).colwise().norm().maxCoeff());
+      difference.force = std::max(difference.force, (a.force_M - b.force_M).norm());
+      difference.same_status = difference.same_status && a.status == b.status;
+    }
+  };
+  drive(kCupLength - 0.001, 0.01, 0.0, 0.1);
+  drive(kCupLength - 0.001, 0.01, -6000.0, 0.2);
+  drive(kCupLength + 0.012, 0.01, -6000.0, 0.0);
+  EXPECT_EQ(reference.seal_flips, 2);  // sealed and lost
+  EXPECT_EQ(cycle.undone_steps, 0);
+  difference.force /= largest_force;
+  return difference;
+}
+
+// What single precision and what is left of the residual may do to a cycle.
+TEST(SolverPaths, SinglePrecisionStaysWithDoubleThroughAWholeCycle) {
+  for (const char* const bell : {"linear_700", "quadratic_700"}) {
+    SimulatorParameters expected = A20(0.01);
+    expected.linear_solver.precision = Precision::kDouble;
+    for (const auto method :
+         {LinearSolverMethod::kDirect, LinearSolverMethod::kConjugateGradient}) {
+      SimulatorParameters parameters = A20(0.01);
+      parameters.linear_solver.method = method;
+      parameters.linear_solver.precision = Precision::kSingle;
+      const Difference difference = WholeCycleDifference(parameters, expected, bell);
+      EXPECT_LT(difference.position, 1e-6) << bell;
+      EXPECT_LT(difference.force, 1e-4) << bell;
+      EXPECT_TRUE(difference.same_status) << bell;
+    }
+  }
+}
+
 // Factorisations of every age up to 15 steps, deterministically.
 TEST(SolverPaths, ConjugateGradientsWithAnOldFactorisationAgreeWithTheDirectSolver) {
   for (const char* const bell : {"linear_700", "quadratic_700"}) {

@@ -18,7 +18,8 @@ namespace vacuum_gripper_sim {
 class BackgroundFactorization {
  public:
   /// @param analyzed Gives the structure of all matrices to come.
-  explicit BackgroundFactorization(const SparseCholesky& analyzed);
+  explicit BackgroundFactorization(const SparseCholesky& analyzed,
+                                   Precision precision = Precision::kDouble);
   /// Waits for a factorisation that is under way.
   ~BackgroundFactorization();
   BackgroundFactorization(const BackgroundFactorization&) = delete;
@@ -37,6 +38,7 @@ class BackgroundFactorization {
  private:
   void Run();
 
+  Precision precision_;
   mutable std::mutex mutex_;
   std::condition_variable changed_;
   Status status_{Status::kIdle};  // guarded by mutex_, as is stop_

@@ -30,15 +30,18 @@ class LinearSolver {
   /** Takes the step's matrix. @param A Lower triangle; must outlive the solves.
    @returns false if A is not positive definite. @throws what the second thread did. */
   bool Compute(const Eigen::SparseMatrix<double>& A);
-  /// Factorises the A of the last Compute(). @returns false if it is not positive definite.
+  /// Makes the factorisation that of the last Compute()'s A, or more precise if it is already.
+  /// @returns false if A is not positive definite.
   bool Renew();
 
   /// The newest factorisation: of the last A or of an earlier one.
   const SparseCholesky& factorization() const { return factorization_; }
   /// Tells one factorisation from the next.
   int generation() const { return generation_; }
-  /// Does factorization() belong to the A of the last Compute()?
-  bool current() const { return factorized_step_ == step_; }
+  /// Does factorization() belong to the A of the last Compute(), in full precision?
+  bool current() const {
+    return factorized_step_ == step_ && factorization_.precision() == Precision::kDouble;
+  }
 
   /// b - A dv. @param b [N s] @param dv [m/s]
   Eigen::VectorXd Residual(const Eigen::VectorXd& b, const Eigen::VectorXd& dv) const;
@@ -65,6 +68,7 @@ class LinearSolver {
  private:
   bool Hopeless(int iterations, double start, double now, double bound) const;
   bool WornOut(int cost) const;
+  bool FactorizeWith(Precision precision);
   bool ExchangeWithBackground(bool worth_taking);
 
   LinearSolverParameters parameters_;
@@ -77,6 +81,7 @@ class LinearSolver {
   std::int64_t background_step_{0};   // whose A the second thread has
   std::int64_t iterations_since_{0};  // factorized_step_, without the current step
   int iterations_{0};
+  int iterations_before_{0};  // of the step, with factorisations given up since
   int factorizations_{0};
   std::unique_ptr<BackgroundFactorization> background_;  // kAsynchronous only
 };

@@ -24,10 +24,15 @@ struct RayleighDamping {
 
 enum class LinearSolverMethod { kDirect, kConjugateGradient, kAsynchronous };
 
+/// Of the numbers of a factorisation.
+enum class Precision { kDouble, kSingle };
+
 /// How the sparse systems with A are solved.
 struct LinearSolverParameters {
   LinearSolverMethod method{LinearSolverMethod::kDirect};
-  double tolerance{1e-6};     ///< CG: bound on |r| / |b|. [-] > 0
+  Precision precision{Precision::kSingle};  ///< Of factorisations. kSingle: twice as fast and half
+                                            ///< the memory; iterations make up for it.
+  double tolerance{1e-6};                   ///< CG: bound on |r| / |b|. [-] > 0
   int max_iterations{10};     ///< CG: a step that needs more factorises its A after all; about what
                               ///< that costs, in iterations. >= 1
   int refactor_interval{10};  ///< kConjugateGradient: steps that share a factorisation. >= 1
