@@ -66,19 +66,18 @@ class HeldPreconditioner {
 
 }  // namespace
 
-LinearSolver::LinearSolver(const LinearSolverParameters& parameters,
-                           const Eigen::SparseMatrix<double>& A)
-    : parameters_(parameters) {
-  factorization_.Analyze(A);
+LinearSolver::LinearSolver(const LinearSolverParameters& parameters, ImplicitEuler* system)
+    : parameters_(parameters), system_(system) {
+  factorization_.Analyze(system->matrix().pattern());
   if (parameters.method == LinearSolverMethod::kAsynchronous) {
-    background_ = std::make_unique<BackgroundFactorization>(factorization_, parameters.precision);
+    background_ = std::make_unique<BackgroundFactorization>(factorization_, system->matrix(),
+                                                            parameters.precision);
   }
 }
 
-bool LinearSolver::Compute(const Eigen::SparseMatrix<double>& A) {
+bool LinearSolver::Compute() {
   const bool worth_renewing = WornOut(parameters_.max_iterations);
   const bool worth_taking = WornOut(kTakingCost);
-  A_ = &A;
   ++step_;
   iterations_since_ += iterations_;
   iterations_ = 0;
@@ -113,7 +112,7 @@ bool LinearSolver::ExchangeWithBackground(bool worth_taking) {
     }
   }
   if (background_->status() == Status::kIdle) {
-    background_->Start(*A_);
+    background_->Start(system_->linearization());
     background_step_ = step_;
   }
   return positive_definite;
@@ -144,7 +143,7 @@ bool LinearSolver::Renew() {
 }
 
 bool LinearSolver::FactorizeWith(Precision precision) {
-  usable_ = factorization_.Factorize(*A_, precision);
+  usable_ = factorization_.Factorize(system_->A_ff(), precision);
   factorized_step_ = step_;
   iterations_since_ = 0;
   iterations_before_ = iterations_;
@@ -154,9 +153,7 @@ bool LinearSolver::FactorizeWith(Precision precision) {
 }
 
 VectorXd LinearSolver::Residual(const VectorXd& b, const VectorXd& dv) const {
-  VectorXd r = b;
-  r.noalias() -= A_->selfadjointView<Eigen::Lower>() * dv;
-  return r;
+  return b - system_->Multiply(dv);
 }
 
 bool LinearSolver::Refine(const VectorXd& b, const DelassusOperator& delassus,
@@ -168,7 +165,6 @@ bool LinearSolver::Refine(const VectorXd& b, const DelassusOperator& delassus,
 
   const HeldPreconditioner preconditioner(factorization_, delassus, held);
   VectorXd p = VectorXd::Zero(b.size());
-  VectorXd Ap(b.size());
   double rz = 1.0;
   const double start = r.norm();
   for (int i = 0; !Hopeless(i, start, r.norm(), bound); ++i) {
@@ -177,7 +173,7 @@ bool LinearSolver::Refine(const VectorXd& b, const DelassusOperator& delassus,
     if (r.norm() <= bound) return true;
     const double rz_before = std::exchange(rz, r.dot(z));
     p = z + (rz / rz_before) * p;
-    Ap.noalias() = A_->selfadjointView<Eigen::Lower>() * p;
+    const VectorXd Ap = system_->Multiply(p);
     const double pAp = p.dot(Ap);
     if (!(pAp > 0.0)) return false;  // A is not positive definite
     *dv += (rz / pAp) * p;

@@ -86,7 +86,7 @@ class Simulator::Implementation {
         rest_M_(MountFromRest(mesh_) * mesh_.nodes),
         body_(mesh_, parameters.material),
         system_(body_, mesh_.mount_nodes),
-        solver_(parameters.linear_solver, system_.A_ff()),
+        solver_(parameters.linear_solver, &system_),
         stage_(system_, &solver_, SurfaceNodes(mesh_), parameters.contact),
         suction_(cavity_, parameters_.seal, parameters.regulator,
                  parameters.material.young_modulus) {
@@ -203,7 +203,7 @@ bool Simulator::Implementation::Advance(const Command& command) {
   }
   {
     const Stopwatch stopwatch(&timings->factorization);
-    if (!solver_.Compute(system_.A_ff())) {
+    if (!solver_.Compute()) {
       return fail(StepOutcome::kNonFinite, "A is not positive definite");
     }
   }

@@ -17,8 +17,10 @@ constexpr double kTimeStep = 0.01;  // s
 /// The matrices of a block that bends on from step to step.
 class BendingBlock {
  public:
-  const Eigen::SparseMatrix<double>& A() const { return system_.A_ff(); }
-  Eigen::MatrixXd Dense() const {
+  ImplicitEuler* system() { return &system_; }
+  Eigen::Index size() const { return 3 * system_.num_free(); }
+  const Eigen::SparseMatrix<double>& A() { return system_.A_ff(); }
+  Eigen::MatrixXd Dense() {
     return Eigen::MatrixXd(Eigen::MatrixXd(A()).selfadjointView<Eigen::Lower>());
   }
   void Bend(double slope) {
@@ -66,12 +68,12 @@ Eigen::VectorXd Solve(const Eigen::VectorXd& b, LinearSolver* solver) {
 TEST(LinearSolver, ReusesAFactorisationForSomeSteps) {
   BendingBlock block;
   block.Linearize();
-  LinearSolver solver(With(LinearSolverMethod::kConjugateGradient), block.A());
-  const Eigen::VectorXd b = Eigen::VectorXd::LinSpaced(block.A().cols(), -1.0, 1.0);
+  LinearSolver solver(With(LinearSolverMethod::kConjugateGradient), block.system());
+  const Eigen::VectorXd b = Eigen::VectorXd::LinSpaced(block.size(), -1.0, 1.0);
   int generation = 0;
   for (const bool expected : {true, false, false, true, false}) {
     block.Bend(0.02);
-    ASSERT_TRUE(solver.Compute(block.A()));
+    ASSERT_TRUE(solver.Compute());
     EXPECT_EQ(solver.current(), expected);
     EXPECT_EQ(solver.factorizations(), expected ? 1 : 0);
     generation += expected ? 1 : 0;
@@ -87,13 +89,13 @@ TEST(LinearSolver, ReusesAFactorisationForSomeSteps) {
 TEST(LinearSolver, HeldContactsKeepTheirGaps) {
   BendingBlock block;
   block.Linearize();
-  LinearSolver solver(With(LinearSolverMethod::kConjugateGradient, 10), block.A());
-  ASSERT_TRUE(solver.Compute(block.A()));
+  LinearSolver solver(With(LinearSolverMethod::kConjugateGradient, 10), block.system());
+  ASSERT_TRUE(solver.Compute());
   block.Bend(0.03);
-  ASSERT_TRUE(solver.Compute(block.A()));
+  ASSERT_TRUE(solver.Compute());
   ASSERT_FALSE(solver.current());
 
-  const auto size = block.A().cols();
+  const auto size = block.size();
   const std::vector<int> nodes{3, 11, 20, 37};
   const std::vector<Eigen::Index> held{0, 2, 3};
   std::vector<NodeColumn> H_rows;
@@ -137,12 +139,12 @@ TEST(LinearSolver, GivesUpWhereAFactorisationIsTooOld) {
   block.Linearize();
   LinearSolverParameters parameters = With(LinearSolverMethod::kConjugateGradient, 1000);
   parameters.max_iterations = 3;
-  LinearSolver solver(parameters, block.A());
-  ASSERT_TRUE(solver.Compute(block.A()));
+  LinearSolver solver(parameters, block.system());
+  ASSERT_TRUE(solver.Compute());
   block.Turn(1.0);
-  ASSERT_TRUE(solver.Compute(block.A()));
+  ASSERT_TRUE(solver.Compute());
   ASSERT_FALSE(solver.current());
-  const Eigen::VectorXd b = Eigen::VectorXd::Ones(block.A().cols());
+  const Eigen::VectorXd b = Eigen::VectorXd::Ones(block.size());
   DelassusOperator nothing;
   nothing.Reset(solver.factorization(), kTimeStep);
   Eigen::VectorXd dv = Eigen::VectorXd::Zero(b.size());
@@ -160,11 +162,11 @@ TEST(LinearSolver, IterationsMakeUpForSinglePrecision) {
   block.Linearize();
   LinearSolverParameters parameters = With(LinearSolverMethod::kDirect);
   parameters.precision = Precision::kSingle;
-  LinearSolver solver(parameters, block.A());
-  const Eigen::VectorXd b = Eigen::VectorXd::LinSpaced(block.A().cols(), -1.0, 1.0);
+  LinearSolver solver(parameters, block.system());
+  const Eigen::VectorXd b = Eigen::VectorXd::LinSpaced(block.size(), -1.0, 1.0);
   for (int step = 0; step < 3; ++step) {
     block.Bend(0.05);
-    ASSERT_TRUE(solver.Compute(block.A()));
+    ASSERT_TRUE(solver.Compute());
     EXPECT_FALSE(solver.current());
     EXPECT_EQ(solver.factorizations(), 1);
     EXPECT_EQ(solver.factorization().precision(), Precision::kSingle);
@@ -181,13 +183,13 @@ TEST(LinearSolver, IterationsMakeUpForSinglePrecision) {
 TEST(LinearSolver, TakesWhatTheSecondThreadFinished) {
   BendingBlock block;
   block.Linearize();
-  LinearSolver solver(With(LinearSolverMethod::kAsynchronous), block.A());
-  const Eigen::VectorXd b = Eigen::VectorXd::LinSpaced(block.A().cols(), -1.0, 1.0);
-  ASSERT_TRUE(solver.Compute(block.A()));
+  LinearSolver solver(With(LinearSolverMethod::kAsynchronous), block.system());
+  const Eigen::VectorXd b = Eigen::VectorXd::LinSpaced(block.size(), -1.0, 1.0);
+  ASSERT_TRUE(solver.Compute());
   EXPECT_TRUE(solver.current());  // nothing to wait for yet: its own
   for (double slope = 0.05; solver.generation() < 4; slope = -slope) {
     block.Bend(slope);
-    ASSERT_TRUE(solver.Compute(block.A()));
+    ASSERT_TRUE(solver.Compute());
     EXPECT_FALSE(solver.current());
     EXPECT_EQ(solver.factorizations(), 0);
     EXPECT_LT((block.Dense() * Solve(b, &solver) - b).norm(), 2e-10 * b.norm());
@@ -205,12 +207,12 @@ TEST(BackgroundFactorization, DoesWhatThisThreadWould) {
   block.Linearize();
   SparseCholesky here;
   here.Analyze(block.A());
-  BackgroundFactorization background(here);
+  BackgroundFactorization background(here, block.system()->matrix(), Precision::kDouble);
   EXPECT_EQ(background.status(), BackgroundFactorization::Status::kIdle);
-  const Eigen::VectorXd b = Eigen::VectorXd::Ones(block.A().cols());
+  const Eigen::VectorXd b = Eigen::VectorXd::Ones(block.size());
   for (int round = 0; round < 3; ++round) {
     block.Bend(0.1);
-    background.Start(block.A());
+    background.Start(block.system()->linearization());
     ASSERT_TRUE(here.Factorize(block.A()));
     ASSERT_EQ(WaitFor(background), BackgroundFactorization::Status::kDone);
     const SparseCholesky* const there = background.Finish();
@@ -218,12 +220,12 @@ TEST(BackgroundFactorization, DoesWhatThisThreadWould) {
     EXPECT_EQ(there->Solve(b), here.Solve(b));
     EXPECT_EQ(background.status(), BackgroundFactorization::Status::kIdle);
   }
-  Eigen::SparseMatrix<double> indefinite = block.A();
-  indefinite.coeffRef(7, 7) = -1.0;
+  Linearization indefinite = block.system()->linearization();
+  indefinite.mass_factor = -1e3;
   background.Start(indefinite);
   WaitFor(background);
   EXPECT_EQ(background.Finish(), nullptr);
-  background.Start(block.A());  // it goes on; and ends while it works
+  background.Start(block.system()->linearization());  // it goes on; and ends while it works
 }
 
 }  // namespace

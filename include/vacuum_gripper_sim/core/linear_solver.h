@@ -1,13 +1,13 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <Eigen/SparseCore>
 #include <cstdint>
 #include <memory>
 #include <vector>
 
 #include "vacuum_gripper_sim/core/background_factorization.h"
 #include "vacuum_gripper_sim/core/delassus_operator.h"
+#include "vacuum_gripper_sim/core/implicit_euler.h"
 #include "vacuum_gripper_sim/core/parameters.h"
 #include "vacuum_gripper_sim/core/sparse_cholesky.h"
 
@@ -24,12 +24,12 @@ namespace vacuum_gripper_sim {
  over by the same rule; how old its factorisation is depends on the threads' speed. */
 class LinearSolver {
  public:
-  /// @param A Gives the sparsity of all matrices to come: lower triangle, compressed.
-  LinearSolver(const LinearSolverParameters& parameters, const Eigen::SparseMatrix<double>& A);
+  /// @param system Its A_ff is the matrix; must outlive this.
+  LinearSolver(const LinearSolverParameters& parameters, ImplicitEuler* system);
 
-  /** Takes the step's matrix. @param A Lower triangle; must outlive the solves.
+  /** Takes the system's A as it is now.
    @returns false if A is not positive definite. @throws what the second thread did. */
-  bool Compute(const Eigen::SparseMatrix<double>& A);
+  bool Compute();
   /// Makes the factorisation that of the last Compute()'s A, or more precise if it is already.
   /// @returns false if A is not positive definite.
   bool Renew();
@@ -72,7 +72,7 @@ class LinearSolver {
   bool ExchangeWithBackground(bool worth_taking);
 
   LinearSolverParameters parameters_;
-  const Eigen::SparseMatrix<double>* A_{nullptr};
+  ImplicitEuler* system_;
   SparseCholesky factorization_;
   bool usable_{false};  // does factorization_ hold a factor?
   int generation_{0};
