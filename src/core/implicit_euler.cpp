@@ -1,6 +1,8 @@
 #include "vacuum_gripper_sim/core/implicit_euler.h"
 
 #include <algorithm>
+#include <cmath>
+#include <iterator>
 #include <numeric>
 
 namespace vacuum_gripper_sim {
@@ -95,6 +97,13 @@ const Eigen::SparseMatrix<double>& ImplicitEuler::A_ff() {
   if (!assembled_) matrix_.Assemble(linearization_, &A_ff_);
   assembled_ = true;
   return A_ff_;
+}
+
+double ImplicitEuler::ImpulseScale() const {
+  constexpr double kStandardGravity = 9.80665;  // m/s^2
+  double squared = 0.0;
+  for (const int node : free_nodes_) squared += body_->masses()(node) * body_->masses()(node);
+  return h_ * kStandardGravity * std::sqrt(squared);
 }
 
 Eigen::VectorXd ImplicitEuler::Multiply(const Eigen::VectorXd& dv_f) const {

@@ -1,6 +1,7 @@
 #include "vacuum_gripper_sim/core/linear_solver.h"
 
 #include <Eigen/Cholesky>
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <utility>
@@ -79,6 +80,7 @@ bool LinearSolver::Compute() {
   const bool worth_renewing = WornOut(parameters_.max_iterations);
   const bool worth_taking = WornOut(kTakingCost);
   ++step_;
+  const bool iterated = iterations_ > 0;
   iterations_since_ += iterations_;
   iterations_ = 0;
   iterations_before_ = 0;
@@ -90,7 +92,8 @@ bool LinearSolver::Compute() {
     good = good && !worth_renewing && step_ - factorized_step_ < parameters_.refactor_interval;
   }
   if (parameters_.method == LinearSolverMethod::kAsynchronous) {
-    good = ExchangeWithBackground(worth_taking) && good;
+    const bool old = iterated && step_ - factorized_step_ >= parameters_.refactor_interval;
+    good = ExchangeWithBackground(worth_taking || old) && good;
   }
   return good || Renew();
 }
@@ -158,7 +161,7 @@ VectorXd LinearSolver::Residual(const VectorXd& b, const VectorXd& dv) const {
 
 bool LinearSolver::Refine(const VectorXd& b, const DelassusOperator& delassus,
                           const std::vector<Index>& held, VectorXd* dv, VectorXd* lambda) {
-  const double bound = parameters_.tolerance * b.norm();
+  const double bound = parameters_.tolerance * std::max(b.norm(), system_->ImpulseScale());
   VectorXd r = Residual(b, *dv);
   delassus.AddImpulses(*lambda, &r);
   if (r.norm() <= bound) return true;

@@ -131,6 +131,21 @@ TEST(SolverPaths, AsynchronousFactorisationsAgreeWithTheDirectSolver) {
   }
 }
 
+// Where nothing loads the cup |b| goes to zero; iterations do not run after what is left of it.
+TEST(SolverPaths, ACupAtRestInTheAirNeedsNoIterations) {
+  for (const auto method :
+       {LinearSolverMethod::kConjugateGradient, LinearSolverMethod::kAsynchronous}) {
+    SimulatorParameters parameters = A20(0.01);
+    parameters.linear_solver.method = method;
+    GripCycle cycle(LoadBell("linear_700"), parameters);
+    cycle.Drive(kCupLength + 0.005, 0.05, 0.0, 1.0);
+    for (int i = 0; i < 20; ++i) {
+      cycle.Step(0.0);
+      EXPECT_EQ(cycle.result().linear_iterations, 0);
+    }
+  }
+}
+
 // Curved: the normals turn while the factorisation stays.
 TEST(SolverPaths, AnOldFactorisationHoldsOnASphereToo) {
   const auto force_of = [](LinearSolverMethod method) {

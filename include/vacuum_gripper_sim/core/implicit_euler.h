@@ -48,6 +48,9 @@ class ImplicitEuler {
   const StepMatrix& matrix() const { return matrix_; }
   /// A_ff, lower triangle; assembled if that has not been done since Linearize(). [kg]
   const Eigen::SparseMatrix<double>& A_ff();
+  /// Of the step's impulses, however little the body moves: norm of the free nodes' masses times h
+  /// and standard gravity. [kg m/s]
+  double ImpulseScale() const;
   /// A_ff dv_f. @param dv_f 3 #free. [m/s] @returns 3 #free. [kg m/s]
   Eigen::VectorXd Multiply(const Eigen::VectorXd& dv_f) const;
   /// b_f - A_fc dv_c. @param dv_c 3 by #clamped. [m/s] @returns 3 #free. [kg m/s]

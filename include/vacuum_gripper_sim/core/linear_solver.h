@@ -21,7 +21,8 @@ namespace vacuum_gripper_sim {
  not on the factorisation's age. kConjugateGradient renews it every `refactor_interval` steps, and
  before that when a step's iterations cost more than the average step since, the factorisation's own
  cost shared among them. kAsynchronous has a second thread factorise one A after the other and takes
- over by the same rule; how old its factorisation is depends on the threads' speed. */
+ over by the same rules, as long as there are iterations to spare; how old its factorisation is
+ depends on the threads' speed. */
 class LinearSolver {
  public:
   /// @param system Its A_ff is the matrix; must outlive this.
@@ -55,7 +56,8 @@ class LinearSolver {
 
    @param delassus Of factorization(). @param held Indices of its contacts.
    @param[in,out] dv Motion. [m/s] @param[in,out] lambda A force for every contact. [N]
-   @returns false if |r| <= tolerance |b| is out of reach of what is left of the step's iterations.
+   @returns false if |r| <= tolerance max(|b|, ImplicitEuler::ImpulseScale()) is out of reach of
+   what is left of the step's iterations.
 
    [Gould 2001] N. I. M. Gould, M. E. Hribar, J. Nocedal, "On the solution of equality constrained
    quadratic programming problems arising in optimization", SIAM J. Sci. Comput. 23(4). */
