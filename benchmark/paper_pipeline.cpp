@@ -35,7 +35,7 @@ PaperPipeline::PaperPipeline(const TetMesh& mesh, const SimulatorParameters& par
       cavity_(MakeCavitySurface(mesh)),
       body_(mesh, parameters.material),
       system_(body_, mesh.mount_nodes) {
-  factorization_.Analyze(system_.A_ff());
+  factorization_.Analyze(system_.matrix().pattern());
   std::set<std::array<int, 2>> chosen;
   const Eigen::MatrixXi& faces = mesh.boundary_faces;
   for (Eigen::Index f = 0; f < faces.cols(); ++f) {
@@ -82,7 +82,7 @@ double PaperPipeline::NormalVelocity(const NodeContact& contact, const Eigen::Ve
 /// One iteration of conjugate gradients from zero.
 Eigen::VectorXd PaperPipeline::FreeMotion(const Eigen::VectorXd& b) const {
   const Eigen::VectorXd z = factorization_.Solve(b);
-  const Eigen::VectorXd Az = system_.A_ff().selfadjointView<Eigen::Lower>() * z;
+  const Eigen::VectorXd Az = system_.Multiply(z);
   return (b.dot(z) / z.dot(Az)) * z;
 }
 

@@ -9,6 +9,8 @@ LinearSolverParameters ReadLinearSolver(ParameterReader reader) {
       reader.GetChoice("method", {"direct", "conjugate_gradient", "asynchronous"}, "direct");
   if (method == "conjugate_gradient") p.method = LinearSolverMethod::kConjugateGradient;
   if (method == "asynchronous") p.method = LinearSolverMethod::kAsynchronous;
+  const std::string precision = reader.GetChoice("precision", {"double", "single"}, "single");
+  p.precision = precision == "double" ? Precision::kDouble : Precision::kSingle;
   p.tolerance = reader.GetDouble("tolerance", p.tolerance);
   p.max_iterations = reader.GetInt("max_iterations", p.max_iterations);
   p.refactor_interval = reader.GetInt("refactor_interval", p.refactor_interval);

@@ -4,8 +4,13 @@
 
 namespace vacuum_gripper_sim {
 
-BackgroundFactorization::BackgroundFactorization(const SparseCholesky& analyzed)
-    : factorization_(analyzed), worker_([this] { Run(); }) {}
+BackgroundFactorization::BackgroundFactorization(const SparseCholesky& analyzed,
+                                                 const StepMatrix& matrix, Precision precision)
+    : matrix_(&matrix),
+      precision_(precision),
+      A_(matrix.pattern()),
+      factorization_(analyzed),
+      worker_([this] { Run(); }) {}
 
 BackgroundFactorization::~BackgroundFactorization() {
   {
@@ -21,8 +26,8 @@ BackgroundFactorization::Status BackgroundFactorization::status() const {
   return status_;
 }
 
-void BackgroundFactorization::Start(const Eigen::SparseMatrix<double>& A) {
-  A_ = A;
+void BackgroundFactorization::Start(const Linearization& linearization) {
+  linearization_ = linearization;
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     status_ = Status::kBusy;
@@ -46,7 +51,8 @@ void BackgroundFactorization::Run() {
     if (stop_) return;
     lock.unlock();
     try {
-      positive_definite_ = factorization_.Factorize(A_);
+      matrix_->Assemble(linearization_, &A_);
+      positive_definite_ = factorization_.Factorize(A_, precision_);
     } catch (...) {
       error_ = std::current_exception();
     }

@@ -31,7 +31,7 @@ void ConstraintOperator::Reset(const SparseCholesky& factorization, const RigidW
   rows_.clear();
   bodies_.clear();
   for (int body = 0; body < world.num_bodies(); ++body) {
-    bodies_.push_back({world.CentreOfMass(body), world.Mass(body).inverse()});
+    bodies_.push_back({world.CentreOfMass(body), world.Mass(body), world.Mass(body).inverse()});
   }
 }
 
@@ -155,28 +155,36 @@ VectorXd ConstraintOperator::BodyVelocities(const VectorXd& b) const {
   return dV;
 }
 
-VectorXd ConstraintOperator::GapChanges(const VectorXd& y, const VectorXd& dV) const {
-  if (plain_) return cup_.GapChanges(y);
-  return H_ * cup_.GapChanges(y) + h_ * J_ * dV;
+VectorXd ConstraintOperator::BodyImpulses(const VectorXd& dV) const {
+  VectorXd b(dV.size());
+  for (std::size_t body = 0; body < bodies_.size(); ++body) {
+    const auto first = 6 * static_cast<Index>(body);
+    b.segment<6>(first) = bodies_[body].M * dV.segment<6>(first);
+  }
+  return b;
 }
 
-void ConstraintOperator::AddForces(const VectorXd& lambda, VectorXd* y, VectorXd* dV) const {
-  if (plain_) {
-    cup_.AddForces(lambda, y);
-    return;
-  }
-  cup_.AddForces(H_.transpose() * lambda, y);
-  *dV += BodyVelocities(h_ * J_.transpose() * lambda);
+VectorXd ConstraintOperator::GapChanges(const SystemVector& y) const {
+  if (plain_) return cup_.GapChanges(y.cup);
+  return H_ * cup_.GapChanges(y.cup) + h_ * J_ * y.bodies;
 }
 
-void ConstraintOperator::AddImpulses(const VectorXd& lambda, VectorXd* b,
-                                     VectorXd* b_bodies) const {
+void ConstraintOperator::AddForces(const VectorXd& lambda, SystemVector* y) const {
   if (plain_) {
-    cup_.AddImpulses(lambda, b);
+    cup_.AddForces(lambda, &y->cup);
     return;
   }
-  cup_.AddImpulses(H_.transpose() * lambda, b);
-  *b_bodies += h_ * J_.transpose() * lambda;
+  cup_.AddForces(H_.transpose() * lambda, &y->cup);
+  y->bodies += BodyVelocities(h_ * J_.transpose() * lambda);
+}
+
+void ConstraintOperator::AddImpulses(const VectorXd& lambda, SystemVector* b) const {
+  if (plain_) {
+    cup_.AddImpulses(lambda, &b->cup);
+    return;
+  }
+  cup_.AddImpulses(H_.transpose() * lambda, &b->cup);
+  b->bodies += h_ * J_.transpose() * lambda;
 }
 
 }  // namespace vacuum_gripper_sim

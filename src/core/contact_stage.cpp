@@ -22,6 +22,13 @@ constexpr int kMaxPasses = 24;
 /// An earlier factorisation that needs more is renewed.
 constexpr int kMaxStalePasses = 8;
 
+/// Is a loaded contact inside its cone of friction?
+bool Sticks(const ContactRows& contact, const VectorXd& lambda) {
+  constexpr double kInside = 1.0 - 1e-6;
+  return contact.has_tangents() && lambda.segment<2>(contact.tangent()).norm() <
+                                       kInside * contact.friction * lambda(contact.normal);
+}
+
 std::vector<bool> AreFree(const std::vector<int>& nodes, const ImplicitEuler& system) {
   std::vector<bool> free;
   for (const int node : nodes) free.push_back(system.FreeRow(node) >= 0);
@@ -66,7 +73,7 @@ void ContactStage::Begin(const RigidWorld& world, const Eigen::Matrix3Xd& x,
 void ContactStage::FindCandidates() {
   // Bodies turn, and so do the rows of their contacts.
   if (candidates_of_ != solver_->generation() || world_->num_bodies() > 0) StartAfresh();
-  const TrialEnd coasting = EndOf(VectorXd::Zero(b_.size()), VectorXd::Zero(b_bodies_.size()));
+  const TrialEnd coasting = EndOf({VectorXd::Zero(b_.size()), VectorXd::Zero(b_bodies_.size())});
   AddCandidates(finder_.Select(coasting, [&](std::uint64_t key, double gap) {
     if (is_candidate_.count(key) > 0) return false;
     if (gap < parameters_.alarm_distance) return true;
@@ -82,13 +89,13 @@ void ContactStage::StartAfresh() {
   operator_.Reset(solver_->factorization(), *world_, h_);
 }
 
-TrialEnd ContactStage::EndOf(const VectorXd& dv_f, const VectorXd& dV) {
+TrialEnd ContactStage::EndOf(const SystemVector& dv) {
   TrialEnd end;
-  end.x_W = x0_ + h_ * (v0_ + system_->Scatter(dv_f, dv_c_));
-  end.dV = dV;
+  end.x_W = x0_ + h_ * (v0_ + system_->Scatter(dv.cup, dv_c_));
+  end.dV = dv.bodies;
   end.surfaces = &world_->surfaces();
   if (world_->num_bodies() > 0) {
-    surfaces_end_ = world_->SurfacesAfter(dV, h_);
+    surfaces_end_ = world_->SurfacesAfter(dv.bodies, h_);
     end.surfaces = &surfaces_end_;
   }
   return end;
@@ -156,11 +163,11 @@ void ContactStage::SetForces(const VectorXd& lambda) {
   }
 }
 
-/// @param[in,out] y,dV On entry of the impulse, on exit with that of the forces' changes.
-void ContactStage::SolveCandidates(VectorXd* y, VectorXd* dV, ContactSolution* solution,
+/// @param[in,out] y On entry of the impulse, on exit with that of the forces' changes.
+void ContactStage::SolveCandidates(SystemVector* y, ContactSolution* solution,
                                    StepTimings* timings) {
   const Stopwatch stopwatch(&timings->solve);
-  VectorXd delta = operator_.GapChanges(*y, *dV);
+  VectorXd delta = operator_.GapChanges(*y);
   bool has_friction = false;
   for (std::size_t i = 0; i < candidates_.size(); ++i) {
     const Contact& contact = candidates_[i].contact;
@@ -182,27 +189,30 @@ void ContactStage::SolveCandidates(VectorXd* y, VectorXd* dV, ContactSolution* s
   solution->statistics.residual = statistics.residual;
   solution->statistics.converged = statistics.converged;
   SetForces(lambda);
-  operator_.AddForces(lambda - applied, y, dV);
+  operator_.AddForces(lambda - applied, y);
 }
 
 /// Makes motion and forces of the loaded contacts those of the true A.
 /// @returns false if that took too many iterations.
-bool ContactStage::Refine(const Impulse& impulse, ContactSolution* solution) {
+bool ContactStage::Refine(const SystemVector& impulse, ContactSolution* solution) {
   VectorXd lambda = Stacked(&Candidate::force);
   std::vector<Index> held;
-  for (Index i = 0; i < lambda.size(); ++i) {
-    if (lambda(i) > 0.0) held.push_back(i);
+  for (const ContactRows& contact : operator_.rows()) {
+    if (lambda(contact.normal) <= 0.0) continue;
+    held.push_back(contact.normal);
+    if (!Sticks(contact, lambda)) continue;
+    held.push_back(contact.tangent());
+    held.push_back(contact.tangent() + 1);
   }
-  const bool converged =
-      solver_->Refine(impulse.cup, *operator_.plain(), held, &solution->dv_f, &lambda);
+  const bool converged = solver_->Refine(impulse, operator_, held, &solution->dv, &lambda);
   SetForces(lambda);
   return converged;
 }
 
 bool ContactStage::Solve(const Eigen::Matrix3Xd& load, ContactSolution* solution,
                          StepTimings* timings) {
-  LoadObjects(load);
-  Impulse impulse{b_ + h_ * system_->GatherFree(load), b_bodies_};
+  pressure_on_ = PressureOnObjects(load, x0_, finder_, *world_);
+  SystemVector impulse{b_ + h_ * system_->GatherFree(load), b_bodies_};
   for (std::size_t object = 0; object < pressure_on_.size(); ++object) {
     const int body = world_->BodyOf(static_cast<int>(object));
     if (body == RigidWorld::kNone) continue;
@@ -212,37 +222,23 @@ bool ContactStage::Solve(const Eigen::Matrix3Xd& load, ContactSolution* solution
     impulse.bodies.segment<3>(6 * body + 3) +=
         h_ * (on_object.torque_W + arm.cross(on_object.force_W));
   }
-  if (!SolveWithFactorization(impulse, solution, timings)) {
+  while (!SolveWithFactorization(impulse, solution, timings)) {
     const Stopwatch stopwatch(&timings->factorization);
     if (!solver_->Renew()) return false;
     FindCandidates();
-    SolveWithFactorization(impulse, solution, timings);
   }
   Report(solution);
   return true;
 }
 
-/// The cavity's air pushes on the object before a point of the cup as hard as on that point.
-void ContactStage::LoadObjects(const Eigen::Matrix3Xd& load) {
-  pressure_on_.assign(world_->objects().size(), ObjectLoad());
-  if (world_->surfaces().empty()) return;
-  for (Index node = 0; node < load.cols(); ++node) {
-    if (load.col(node).isZero(0.0)) continue;
-    const int nearest = finder_.NearestSurface(static_cast<int>(node));
-    const auto object = static_cast<std::size_t>(world_->ObjectOf(nearest));
-    const Vector3d arm = x0_.col(node) - world_->objects()[object].X_WO.translation();
-    pressure_on_[object].force_W -= load.col(node);
-    pressure_on_[object].torque_W -= arm.cross(Vector3d(load.col(node)));
-  }
-}
-
 /// @returns false if the factorisation is too old for this.
-bool ContactStage::SolveWithFactorization(const Impulse& impulse, ContactSolution* solution,
+bool ContactStage::SolveWithFactorization(const SystemVector& impulse, ContactSolution* solution,
                                           StepTimings* timings) {
   *solution = ContactSolution();
-  solution->dv_f.setZero(impulse.cup.size());
-  solution->dV.setZero(impulse.bodies.size());
-  const TrialEnd coasting = EndOf(solution->dv_f, solution->dV);
+  const SystemVector none{VectorXd::Zero(impulse.cup.size()),
+                          VectorXd::Zero(impulse.bodies.size())};
+  solution->dv = none;
+  const TrialEnd coasting = EndOf(none);
   MeasureCandidates([&](std::uint64_t key) { return finder_.Ahead(key, coasting); });
   // An earlier factorisation errs by what it is asked to bridge: by less from the last forces on.
   for (Candidate& candidate : candidates_) {
@@ -250,26 +246,24 @@ bool ContactStage::SolveWithFactorization(const Impulse& impulse, ContactSolutio
   }
   for (int pass = 0; pass < kMaxPasses; ++pass) {
     UpdateOperator(timings);
-    if (!solver_->current() && operator_.plain() == nullptr) return false;
-    VectorXd y = VectorXd::Zero(impulse.cup.size());
-    VectorXd dV = VectorXd::Zero(impulse.bodies.size());
+    SystemVector y = none;
     if (pass == 0) {
       const Stopwatch stopwatch(&timings->free_motion);
-      Impulse with_forces = impulse;
-      operator_.AddImpulses(Stacked(&Candidate::applied), &with_forces.cup, &with_forces.bodies);
-      y = solver_->factorization().Eliminate(with_forces.cup);
-      dV = operator_.BodyVelocities(with_forces.bodies);
+      SystemVector with_forces = impulse;
+      operator_.AddImpulses(Stacked(&Candidate::applied), &with_forces);
+      y.cup = solver_->factorization().Eliminate(with_forces.cup);
+      y.bodies = operator_.BodyVelocities(with_forces.bodies);
     }
-    SolveCandidates(&y, &dV, solution, timings);
+    SolveCandidates(&y, solution, timings);
     TrialEnd end;
     {
       const Stopwatch stopwatch(&timings->correction);
-      solution->dv_f += solver_->factorization().BackSubstitute(std::move(y));
-      solution->dV += dV;
+      solution->dv.cup += solver_->factorization().BackSubstitute(std::move(y.cup));
+      solution->dv.bodies += y.bodies;
       if (!solver_->current() && (pass == kMaxStalePasses || !Refine(impulse, solution))) {
         return false;
       }
-      end = EndOf(solution->dv_f, solution->dV);
+      end = EndOf(solution->dv);
     }
 
     const Stopwatch stopwatch(&timings->narrow_phase);
@@ -285,7 +279,7 @@ bool ContactStage::SolveWithFactorization(const Impulse& impulse, ContactSolutio
                                     [&](const Contact& contact) { return contact.gap < -bound; });
     if (!passed && solution->error <= bound) break;
     // Forces with friction that were not found from here will not be found from a little further.
-    if (!solution->statistics.converged && operator_.plain() == nullptr) break;
+    if (!solution->statistics.converged && !operator_.plain()) break;
 
     MeasureCandidates([&](std::uint64_t key) { return finder_.At(key, end); });
     for (Candidate& candidate : candidates_) candidate.applied = candidate.force;
@@ -315,9 +309,15 @@ void ContactStage::MeasureEnd(const TrialEnd& end, ContactSolution* solution) {
       const double gap = finder_.At(candidate.contact.key, end).gap;
       solution->error = std::max(solution->error, is_loaded ? std::abs(gap) : -gap);
     }
-    if (!is_loaded) {  // refined forces may pull
-      const Index row = operator_.rows()[i].normal;
-      solution->error = std::max(solution->error, -candidate.force.x() * operator_.W()(row, row));
+    // Refined forces may pull, and leave their cones.
+    const ContactRows& rows = operator_.rows()[i];
+    if (!is_loaded) {
+      const double compliance = operator_.W()(rows.normal, rows.normal);
+      solution->error = std::max(solution->error, -candidate.force.x() * compliance);
+    } else if (rows.has_tangents()) {
+      const double excess = candidate.force.tail<2>().norm() - rows.friction * candidate.force.x();
+      const double compliance = operator_.W()(rows.tangent(), rows.tangent());
+      solution->error = std::max(solution->error, excess * compliance);
     }
   }
 }

@@ -10,18 +10,21 @@ namespace {
 using Eigen::Index;
 
 /// Rows of a tile: two vector registers, so that with six columns twelve sums are in flight.
-constexpr int kTileRows = EIGEN_MAX_STATIC_ALIGN_BYTES >= 16 ? EIGEN_MAX_STATIC_ALIGN_BYTES / 4 : 4;
+template <typename Scalar>
+constexpr int kTileRows = 2 * std::max(16, EIGEN_MAX_STATIC_ALIGN_BYTES) /
+                          static_cast<int>(sizeof(Scalar));
 constexpr int kTileColumns = 6;
 /// Columns of the operands that are read again and again, a multiple of the tile's.
-constexpr Index kDepth = 48;
+template <typename Scalar>
+constexpr Index kDepth = 384 / static_cast<Index>(sizeof(Scalar));
 
 enum class Write { kAssign, kSubtract };
 
-template <int kRows>
-using Column = Eigen::Matrix<double, kRows, 1>;
+template <typename Scalar, int kRows>
+using Column = Eigen::Matrix<Scalar, kRows, 1>;
 
 /// Calls f(row, integral constant #rows) on tiles of [begin, end): full ones, then halves.
-template <int kRows = kTileRows, typename Function>
+template <int kRows, typename Function>
 void ForRowTiles(Index begin, Index end, const Function& f) {
   for (; begin + kRows <= end; begin += kRows) f(begin, std::integral_constant<int, kRows>());
   if constexpr (kRows > 1) {
@@ -40,17 +43,17 @@ void ForColumnTiles(Index end, const Function& f) {
 }
 
 /// C = -A B^T or C -= A B^T of one tile.
-template <int kRows, int kColumns, Write kWrite>
-void Tile(Index depth, const double* a, Index stride_a, const double* b, Index stride_b, double* c,
+template <int kRows, int kColumns, Write kWrite, typename Scalar>
+void Tile(Index depth, const Scalar* a, Index stride_a, const Scalar* b, Index stride_b, Scalar* c,
           Index stride_c) {
-  Column<kRows> sums[kColumns];
+  Column<Scalar, kRows> sums[kColumns];
   for (int j = 0; j < kColumns; ++j) sums[j].setZero();
   for (Index k = 0; k < depth; ++k) {
-    const Column<kRows> x = Eigen::Map<const Column<kRows>>(a + k * stride_a);
+    const Column<Scalar, kRows> x = Eigen::Map<const Column<Scalar, kRows>>(a + k * stride_a);
     for (int j = 0; j < kColumns; ++j) sums[j] += b[j + k * stride_b] * x;
   }
   for (int j = 0; j < kColumns; ++j) {
-    Eigen::Map<Column<kRows>> target(c + j * stride_c);
+    Eigen::Map<Column<Scalar, kRows>> target(c + j * stride_c);
     if constexpr (kWrite == Write::kAssign) {
       target = -sums[j];
     } else {
@@ -60,41 +63,41 @@ void Tile(Index depth, const double* a, Index stride_a, const double* b, Index s
 }
 
 /// X = X L^-T of one tile. @param inverse_diagonal Of L.
-template <int kRows, int kColumns>
-void SolveTile(const double* L, Index stride_L, const double* inverse_diagonal, double* X,
+template <int kRows, int kColumns, typename Scalar>
+void SolveTile(const Scalar* L, Index stride_L, const Scalar* inverse_diagonal, Scalar* X,
                Index stride_X) {
-  Column<kRows> x[kColumns];
+  Column<Scalar, kRows> x[kColumns];
   for (int j = 0; j < kColumns; ++j) {
-    x[j] = Eigen::Map<const Column<kRows>>(X + j * stride_X);
+    x[j] = Eigen::Map<const Column<Scalar, kRows>>(X + j * stride_X);
     for (int k = 0; k < j; ++k) x[j] -= L[j + k * stride_L] * x[k];
     x[j] *= inverse_diagonal[j];
-    Eigen::Map<Column<kRows>>(X + j * stride_X) = x[j];
+    Eigen::Map<Column<Scalar, kRows>>(X + j * stride_X) = x[j];
   }
 }
 
 /// Cholesky factorisation of a diagonal tile.
-template <int kColumns>
-bool FactorizeTile(double* L, Index stride, double* inverse_diagonal) {
+template <int kColumns, typename Scalar>
+bool FactorizeTile(Scalar* L, Index stride, Scalar* inverse_diagonal) {
   for (int j = 0; j < kColumns; ++j) {
-    double* const column = L + j * stride;
+    Scalar* const column = L + j * stride;
     for (int k = 0; k < j; ++k) {
       for (int i = j; i < kColumns; ++i) column[i] -= L[i + k * stride] * L[j + k * stride];
     }
-    if (!(column[j] > 0.0)) return false;
+    if (!(column[j] > Scalar(0))) return false;
     column[j] = std::sqrt(column[j]);
-    inverse_diagonal[j] = 1.0 / column[j];
+    inverse_diagonal[j] = Scalar(1) / column[j];
     for (int i = j + 1; i < kColumns; ++i) column[i] *= inverse_diagonal[j];
   }
   return true;
 }
 
 /// C = -A B^T or C -= A B^T. @param lower Only tiles that touch the lower triangle.
-template <Write kWrite>
-void Product(bool lower, Index rows, Index columns, Index depth, const double* A, Index stride_A,
-             const double* B, Index stride_B, double* C, Index stride_C) {
+template <Write kWrite, typename Scalar>
+void Product(bool lower, Index rows, Index columns, Index depth, const Scalar* A, Index stride_A,
+             const Scalar* B, Index stride_B, Scalar* C, Index stride_C) {
   ForColumnTiles(columns, [&](Index column, auto num_columns) {
     constexpr int kColumns = num_columns;
-    ForRowTiles(lower ? column : 0, rows, [&](Index row, auto num_rows) {
+    ForRowTiles<kTileRows<Scalar>>(lower ? column : 0, rows, [&](Index row, auto num_rows) {
       Tile<num_rows, kColumns, kWrite>(depth, A + row, stride_A, B + column, stride_B,
                                        C + row + column * stride_C, stride_C);
     });
@@ -102,30 +105,32 @@ void Product(bool lower, Index rows, Index columns, Index depth, const double* A
 }
 
 /// C = -A B^T, a few columns of A and B at a time, so that they stay in the nearest cache.
-void NegativeProduct(bool lower, Index rows, Index columns, Index depth, const double* A,
-                     Index stride_A, const double* B, Index stride_B, double* C) {
-  Product<Write::kAssign>(lower, rows, columns, std::min(depth, kDepth), A, stride_A, B, stride_B,
-                          C, rows);
-  for (Index k = kDepth; k < depth; k += kDepth) {
-    Product<Write::kSubtract>(lower, rows, columns, std::min(depth - k, kDepth), A + k * stride_A,
-                              stride_A, B + k * stride_B, stride_B, C, rows);
+template <typename Scalar>
+void NegativeProduct(bool lower, Index rows, Index columns, Index depth, const Scalar* A,
+                     Index stride_A, const Scalar* B, Index stride_B, Scalar* C) {
+  Product<Write::kAssign>(lower, rows, columns, std::min(depth, kDepth<Scalar>), A, stride_A, B,
+                          stride_B, C, rows);
+  for (Index k = kDepth<Scalar>; k < depth; k += kDepth<Scalar>) {
+    Product<Write::kSubtract>(lower, rows, columns, std::min(depth - k, kDepth<Scalar>),
+                              A + k * stride_A, stride_A, B + k * stride_B, stride_B, C, rows);
   }
 }
 
 /// FactorizePanel() of a few columns.
-bool FactorizeNarrowPanel(Index rows, Index columns, double* F, Index stride) {
+template <typename Scalar>
+bool FactorizeNarrowPanel(Index rows, Index columns, Scalar* F, Index stride) {
   bool positive = true;
   ForColumnTiles(columns, [&](Index column, auto num_columns) {
     constexpr int kColumns = num_columns;
-    double* const target = F + column * stride;
-    ForRowTiles(column, rows, [&](Index row, auto num_rows) {
+    Scalar* const target = F + column * stride;
+    ForRowTiles<kTileRows<Scalar>>(column, rows, [&](Index row, auto num_rows) {
       Tile<num_rows, kColumns, Write::kSubtract>(column, F + row, stride, F + column, stride,
                                                  target + row, stride);
     });
-    double inverse_diagonal[kColumns];
+    Scalar inverse_diagonal[kColumns];
     positive = positive && FactorizeTile<kColumns>(target + column, stride, inverse_diagonal);
     if (!positive) return;
-    ForRowTiles(column + kColumns, rows, [&](Index row, auto num_rows) {
+    ForRowTiles<kTileRows<Scalar>>(column + kColumns, rows, [&](Index row, auto num_rows) {
       SolveTile<num_rows, kColumns>(target + column, stride, inverse_diagonal, target + row,
                                     stride);
     });
@@ -134,15 +139,16 @@ bool FactorizeNarrowPanel(Index rows, Index columns, double* F, Index stride) {
 }
 
 /// SolveOnTheRight() of a few columns.
-void SolveNarrow(Index rows, Index columns, const double* L, Index stride_L, double* X) {
+template <typename Scalar>
+void SolveNarrow(Index rows, Index columns, const Scalar* L, Index stride_L, Scalar* X) {
   ForColumnTiles(columns, [&](Index column, auto num_columns) {
     constexpr int kColumns = num_columns;
-    double inverse_diagonal[kColumns];
+    Scalar inverse_diagonal[kColumns];
     for (int j = 0; j < kColumns; ++j) {
-      inverse_diagonal[j] = 1.0 / L[(column + j) * (stride_L + 1)];
+      inverse_diagonal[j] = Scalar(1) / L[(column + j) * (stride_L + 1)];
     }
-    ForRowTiles(0, rows, [&](Index row, auto num_rows) {
-      double* const target = X + row + column * rows;
+    ForRowTiles<kTileRows<Scalar>>(0, rows, [&](Index row, auto num_rows) {
+      Scalar* const target = X + row + column * rows;
       Tile<num_rows, kColumns, Write::kSubtract>(column, X + row, rows, L + column, stride_L,
                                                  target, rows);
       SolveTile<num_rows, kColumns>(L + column * (stride_L + 1), stride_L, inverse_diagonal, target,
@@ -153,35 +159,49 @@ void SolveNarrow(Index rows, Index columns, const double* L, Index stride_L, dou
 
 }  // namespace
 
-void NegativeSquare(Index rows, Index depth, const double* A, Index stride_A, double* C) {
+template <typename Scalar>
+void NegativeSquare(Index rows, Index depth, const Scalar* A, Index stride_A, Scalar* C) {
   NegativeProduct(true, rows, rows, depth, A, stride_A, A, stride_A, C);
 }
 
-void NegativeProduct(Index rows, Index columns, Index depth, const double* A, Index stride_A,
-                     const double* B, Index stride_B, double* C) {
+template <typename Scalar>
+void NegativeProduct(Index rows, Index columns, Index depth, const Scalar* A, Index stride_A,
+                     const Scalar* B, Index stride_B, Scalar* C) {
   NegativeProduct(false, rows, columns, depth, A, stride_A, B, stride_B, C);
 }
 
-bool FactorizePanel(Index rows, Index columns, double* F) {
-  for (Index k = 0; k < columns; k += kDepth) {
-    const Index width = std::min(columns - k, kDepth);
+template <typename Scalar>
+bool FactorizePanel(Index rows, Index columns, Scalar* F) {
+  for (Index k = 0; k < columns; k += kDepth<Scalar>) {
+    const Index width = std::min(columns - k, kDepth<Scalar>);
     if (!FactorizeNarrowPanel(rows - k, width, F + k * (rows + 1), rows)) return false;
     const Index next = k + width;
-    const double* const done = F + next + k * rows;
+    const Scalar* const done = F + next + k * rows;
     Product<Write::kSubtract>(true, rows - next, columns - next, width, done, rows, done, rows,
                               F + next * (rows + 1), rows);
   }
   return true;
 }
 
-void SolveOnTheRight(Index rows, Index columns, const double* L, Index stride_L, double* X) {
-  for (Index k = 0; k < columns; k += kDepth) {
-    const Index width = std::min(columns - k, kDepth);
+template <typename Scalar>
+void SolveOnTheRight(Index rows, Index columns, const Scalar* L, Index stride_L, Scalar* X) {
+  for (Index k = 0; k < columns; k += kDepth<Scalar>) {
+    const Index width = std::min(columns - k, kDepth<Scalar>);
     SolveNarrow(rows, width, L + k * (stride_L + 1), stride_L, X + k * rows);
     const Index next = k + width;
     Product<Write::kSubtract>(false, rows, columns - next, width, X + k * rows, rows,
                               L + next + k * stride_L, stride_L, X + next * rows, rows);
   }
 }
+
+#define VACUUM_GRIPPER_INSTANTIATE(Scalar)                                                       \
+  template void NegativeSquare(Index, Index, const Scalar*, Index, Scalar*);                     \
+  template void NegativeProduct(Index, Index, Index, const Scalar*, Index, const Scalar*, Index, \
+                                Scalar*);                                                        \
+  template bool FactorizePanel(Index, Index, Scalar*);                                           \
+  template void SolveOnTheRight(Index, Index, const Scalar*, Index, Scalar*)
+VACUUM_GRIPPER_INSTANTIATE(double);
+VACUUM_GRIPPER_INSTANTIATE(float);
+#undef VACUUM_GRIPPER_INSTANTIATE
 
 }  // namespace vacuum_gripper_sim

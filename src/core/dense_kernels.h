@@ -6,26 +6,32 @@ namespace vacuum_gripper_sim {
 
 /** Dense kernels for the small fronts of SparseCholesky: matrices of some ten to some hundred rows,
  3 n columns, column-major in cache. There, Eigen's kernels for large matrices spend much of their
- time on packing; these read the operands where they are, a tile of the result in registers. */
+ time on packing; these read the operands where they are, a tile of the result in registers.
+
+ @tparam Scalar double or float. */
 
 /// C = -A A^T, lower triangle. Above the diagonal C is scratch.
 /// @param A #rows by depth. @param C #rows square, no padding; #rows a multiple of 3.
-void NegativeSquare(Eigen::Index rows, Eigen::Index depth, const double* A, Eigen::Index stride_A,
-                    double* C);
+template <typename Scalar>
+void NegativeSquare(Eigen::Index rows, Eigen::Index depth, const Scalar* A, Eigen::Index stride_A,
+                    Scalar* C);
 
 /// C = -A B^T. @param A #rows by depth. @param B #columns by depth. @param C #rows by #columns, no
 /// padding; #columns a multiple of 3.
-void NegativeProduct(Eigen::Index rows, Eigen::Index columns, Eigen::Index depth, const double* A,
-                     Eigen::Index stride_A, const double* B, Eigen::Index stride_B, double* C);
+template <typename Scalar>
+void NegativeProduct(Eigen::Index rows, Eigen::Index columns, Eigen::Index depth, const Scalar* A,
+                     Eigen::Index stride_A, const Scalar* B, Eigen::Index stride_B, Scalar* C);
 
 /// Cholesky factorisation of a panel's first columns: F = (L_11; L_21) from (A_11; A_21).
 /// @param[in,out] F #rows by #columns, no padding; #columns a multiple of 3. What is above the
 /// diagonal is scratch. @returns false if A_11 is not positive definite.
-bool FactorizePanel(Eigen::Index rows, Eigen::Index columns, double* F);
+template <typename Scalar>
+bool FactorizePanel(Eigen::Index rows, Eigen::Index columns, Scalar* F);
 
 /// X = X L^-T. @param[in,out] X #rows by #columns, no padding; #columns a multiple of 3.
 /// @param L Lower triangle, #columns square.
-void SolveOnTheRight(Eigen::Index rows, Eigen::Index columns, const double* L,
-                     Eigen::Index stride_L, double* X);
+template <typename Scalar>
+void SolveOnTheRight(Eigen::Index rows, Eigen::Index columns, const Scalar* L,
+                     Eigen::Index stride_L, Scalar* X);
 
 }  // namespace vacuum_gripper_sim

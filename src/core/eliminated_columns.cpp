@@ -1,50 +1,88 @@
 #include "vacuum_gripper_sim/core/eliminated_columns.h"
 
+#include <type_traits>
+
 namespace vacuum_gripper_sim {
 
 using Eigen::Index;
 
+namespace {
+
+template <typename Values>
+using ScalarOf = typename std::decay_t<Values>::value_type;
+
+}  // namespace
+
 Eigen::VectorXd EliminatedColumns::TransposeTimes(const Eigen::VectorXd& y) const {
-  Eigen::VectorXd sorted = Eigen::VectorXd::Zero(num_columns());
-  for (const Block& block : blocks_) {
-    sorted.segment(block.column, block.num_columns).noalias() +=
-        Values(block) * y.segment(block.row, block.num_rows);
-  }
-  Eigen::VectorXd result(num_columns());
-  for (Index k = 0; k < result.size(); ++k) result(order_[static_cast<std::size_t>(k)]) = sorted(k);
-  return result;
+  return std::visit(
+      [&](const auto& values) -> Eigen::VectorXd {
+        using Vector = Eigen::Matrix<ScalarOf<decltype(values)>, Eigen::Dynamic, 1>;
+        const Vector rounded = y.template cast<typename Vector::Scalar>();
+        Vector sorted = Vector::Zero(num_columns());
+        for (const Block& block : blocks_) {
+          sorted.segment(block.column, block.num_columns).noalias() +=
+              Values(values, block) * rounded.segment(block.row, block.num_rows);
+        }
+        Eigen::VectorXd result(num_columns());
+        for (Index k = 0; k < result.size(); ++k) {
+          result(order_[static_cast<std::size_t>(k)]) = sorted(k);
+        }
+        return result;
+      },
+      values_);
 }
 
 void EliminatedColumns::AddTimes(const Eigen::VectorXd& x, Eigen::VectorXd* y) const {
-  Eigen::VectorXd sorted(num_columns());
-  for (Index k = 0; k < sorted.size(); ++k) sorted(k) = x(order_[static_cast<std::size_t>(k)]);
-  for (const Block& block : blocks_) {
-    y->segment(block.row, block.num_rows).noalias() +=
-        Values(block).transpose() * sorted.segment(block.column, block.num_columns);
-  }
+  std::visit(
+      [&](const auto& values) {
+        using Vector = Eigen::Matrix<ScalarOf<decltype(values)>, Eigen::Dynamic, 1>;
+        Vector sorted(num_columns());
+        for (Index k = 0; k < sorted.size(); ++k) {
+          sorted(k) = static_cast<typename Vector::Scalar>(x(order_[static_cast<std::size_t>(k)]));
+        }
+        Vector product;
+        for (const Block& block : blocks_) {
+          product.noalias() =
+              Values(values, block).transpose() * sorted.segment(block.column, block.num_columns);
+          y->segment(block.row, block.num_rows) += product.template cast<double>();
+        }
+      },
+      values_);
 }
 
+/// In double precision whatever Y's: contacts at one node differ by less than single rounding.
 Eigen::MatrixXd EliminatedColumns::Gram() const {
   Eigen::MatrixXd sorted = Eigen::MatrixXd::Zero(num_columns(), num_columns());
-  for (const Block& block : blocks_) {
-    sorted.block(block.column, block.column, block.num_columns, block.num_columns)
-        .selfadjointView<Eigen::Lower>()
-        .rankUpdate(Values(block));
-  }
+  std::visit(
+      [&](const auto& values) {
+        for (const Block& block : blocks_) {
+          sorted.block(block.column, block.column, block.num_columns, block.num_columns)
+              .selfadjointView<Eigen::Lower>()
+              .rankUpdate(Values(values, block).template cast<double>().eval());
+        }
+      },
+      values_);
   sorted.triangularView<Eigen::StrictlyUpper>() = sorted.transpose();
   return InGivenOrder(sorted, *this);
 }
 
 Eigen::MatrixXd EliminatedColumns::TransposeTimes(const EliminatedColumns& other) const {
   Eigen::MatrixXd sorted = Eigen::MatrixXd::Zero(num_columns(), other.num_columns());
-  auto theirs = other.blocks_.begin();
-  for (const Block& ours : blocks_) {
-    while (theirs != other.blocks_.end() && theirs->row < ours.row) ++theirs;
-    if (theirs == other.blocks_.end()) break;
-    if (theirs->row != ours.row) continue;
-    sorted.block(ours.column, theirs->column, ours.num_columns, theirs->num_columns).noalias() +=
-        Values(ours) * other.Values(*theirs).transpose();
-  }
+  std::visit(
+      [&](const auto& values) {
+        const auto& their_values = std::get<std::decay_t<decltype(values)>>(other.values_);
+        auto theirs = other.blocks_.begin();
+        for (const Block& ours : blocks_) {
+          while (theirs != other.blocks_.end() && theirs->row < ours.row) ++theirs;
+          if (theirs == other.blocks_.end()) break;
+          if (theirs->row != ours.row) continue;
+          sorted.block(ours.column, theirs->column, ours.num_columns, theirs->num_columns)
+              .noalias() +=
+              Values(values, ours).template cast<double>().eval() *
+              Values(their_values, *theirs).transpose().template cast<double>().eval();
+        }
+      },
+      values_);
   return InGivenOrder(sorted, other);
 }
 

@@ -26,18 +26,6 @@ Vector2d ProjectOntoDisc(const Vector2d& z, double radius) {
   return size <= radius ? z : Vector2d(z * (radius / size));
 }
 
-/// More contacts than ways to move make W semi-definite, and rounding may leave it less than that.
-Eigen::LLT<MatrixXd> FactorOf(const MatrixXd& W_lower) {
-  Eigen::LLT<MatrixXd> factor;
-  for (double share = kContactRegularization; share < 1e-5; share *= 1e3) {
-    MatrixXd W = W_lower;
-    W.diagonal() *= 1.0 + share;
-    factor.compute(W);
-    if (factor.info() == Eigen::Success) break;
-  }
-  return factor;
-}
-
 class FrictionProblem {
  public:
   FrictionProblem(const Eigen::MatrixXd& W, const VectorXd& delta,
@@ -141,7 +129,7 @@ VectorXd FrictionProblem::NewtonTarget(const VectorXd& lambda, const VectorXd& e
     }
     right(i, num_sliding) = -(*delta_)(row);
   }
-  const Eigen::LLT<MatrixXd> factor = FactorOf(W_EE);
+  const Eigen::LLT<MatrixXd> factor = FactorOfContacts(W_EE);
   if (factor.info() != Eigen::Success) return lambda;
   factor.solveInPlace(right);
   VectorXd forces_E = right.col(num_sliding);

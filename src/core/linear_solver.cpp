@@ -1,6 +1,7 @@
 #include "vacuum_gripper_sim/core/linear_solver.h"
 
 #include <Eigen/Cholesky>
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <utility>
@@ -19,28 +20,28 @@ constexpr int kTakingCost = 3;
 /// The preconditioner of LinearSolver::Refine().
 class HeldPreconditioner {
  public:
-  HeldPreconditioner(const SparseCholesky& factorization, const DelassusOperator& delassus,
+  HeldPreconditioner(const SparseCholesky& factorization, const ConstraintOperator& constraints,
                      const std::vector<Index>& held)
-      : factorization_(&factorization), delassus_(&delassus), held_(&held) {
+      : factorization_(&factorization), constraints_(&constraints), held_(&held) {
     const auto size = static_cast<Index>(held.size());
     if (size == 0) return;
+    const Eigen::MatrixXd& W = constraints.W();
     Eigen::MatrixXd W_held(size, size);
     for (Index j = 0; j < size; ++j) {
       const Index column = held[static_cast<std::size_t>(j)];
-      for (Index i = j; i < size; ++i) {
-        W_held(i, j) = delassus.W()(held[static_cast<std::size_t>(i)], column);
-      }
-      W_held(j, j) *= 1.0 + kContactRegularization;
+      for (Index i = j; i < size; ++i) W_held(i, j) = W(held[static_cast<std::size_t>(i)], column);
     }
-    W_held_.compute(W_held);
+    W_held_ = FactorOfContacts(W_held);
   }
 
+  bool usable() const { return held_->empty() || W_held_.info() == Eigen::Success; }
+
   /// @param[in,out] r Loses the part that held contacts take. @param[in,out] lambda Gains mu.
-  /// @returns z, which moves no held gap.
-  VectorXd Solve(VectorXd* r, VectorXd* lambda) const {
-    VectorXd y = factorization_->Eliminate(*r);
+  /// @returns z, which moves no held row.
+  SystemVector Solve(SystemVector* r, VectorXd* lambda) const {
+    SystemVector y{factorization_->Eliminate(r->cup), constraints_->BodyVelocities(r->bodies)};
     if (!held_->empty()) {
-      const VectorXd gaps = delassus_->GapChanges(y);
+      const VectorXd gaps = constraints_->GapChanges(y);
       VectorXd forces(static_cast<Index>(held_->size()));
       for (Index i = 0; i < forces.size(); ++i) {
         forces(i) = -gaps((*held_)[static_cast<std::size_t>(i)]);
@@ -50,38 +51,39 @@ class HeldPreconditioner {
       for (Index i = 0; i < forces.size(); ++i) {
         mu((*held_)[static_cast<std::size_t>(i)]) = forces(i);
       }
-      delassus_->AddForces(mu, &y);
-      delassus_->AddImpulses(mu, r);
+      constraints_->AddForces(mu, &y);
+      constraints_->AddImpulses(mu, r);
       *lambda += mu;
     }
-    return factorization_->BackSubstitute(std::move(y));
+    return {factorization_->BackSubstitute(std::move(y.cup)), std::move(y.bodies)};
   }
 
  private:
   const SparseCholesky* factorization_;
-  const DelassusOperator* delassus_;
+  const ConstraintOperator* constraints_;
   const std::vector<Index>* held_;
   Eigen::LLT<Eigen::MatrixXd> W_held_;
 };
 
 }  // namespace
 
-LinearSolver::LinearSolver(const LinearSolverParameters& parameters,
-                           const Eigen::SparseMatrix<double>& A)
-    : parameters_(parameters) {
-  factorization_.Analyze(A);
+LinearSolver::LinearSolver(const LinearSolverParameters& parameters, ImplicitEuler* system)
+    : parameters_(parameters), system_(system) {
+  factorization_.Analyze(system->matrix().pattern());
   if (parameters.method == LinearSolverMethod::kAsynchronous) {
-    background_ = std::make_unique<BackgroundFactorization>(factorization_);
+    background_ = std::make_unique<BackgroundFactorization>(factorization_, system->matrix(),
+                                                            parameters.precision);
   }
 }
 
-bool LinearSolver::Compute(const Eigen::SparseMatrix<double>& A) {
+bool LinearSolver::Compute() {
   const bool worth_renewing = WornOut(parameters_.max_iterations);
   const bool worth_taking = WornOut(kTakingCost);
-  A_ = &A;
   ++step_;
+  const bool iterated = iterations_ > 0;
   iterations_since_ += iterations_;
   iterations_ = 0;
+  iterations_before_ = 0;
   factorizations_ = 0;
 
   bool good = usable_;
@@ -90,7 +92,8 @@ bool LinearSolver::Compute(const Eigen::SparseMatrix<double>& A) {
     good = good && !worth_renewing && step_ - factorized_step_ < parameters_.refactor_interval;
   }
   if (parameters_.method == LinearSolverMethod::kAsynchronous) {
-    good = ExchangeWithBackground(worth_taking) && good;
+    const bool old = iterated && step_ - factorized_step_ >= parameters_.refactor_interval;
+    good = ExchangeWithBackground(worth_taking || old) && good;
   }
   return good || Renew();
 }
@@ -112,7 +115,7 @@ bool LinearSolver::ExchangeWithBackground(bool worth_taking) {
     }
   }
   if (background_->status() == Status::kIdle) {
-    background_->Start(*A_);
+    background_->Start(system_->linearization());
     background_step_ = step_;
   }
   return positive_definite;
@@ -121,7 +124,7 @@ bool LinearSolver::ExchangeWithBackground(bool worth_taking) {
 /// Will more than the step's iterations be needed at the pace so far?
 bool LinearSolver::Hopeless(int iterations, double start, double now, double bound) const {
   constexpr int kTrial = 2;
-  const int left = parameters_.max_iterations - iterations_;
+  const int left = parameters_.max_iterations - (iterations_ - iterations_before_);
   if (iterations < kTrial) return left <= 0;
   return now * std::pow(now / start, static_cast<double>(left) / iterations) > bound;
 }
@@ -134,43 +137,52 @@ bool LinearSolver::WornOut(int cost) const {
 }
 
 bool LinearSolver::Renew() {
-  usable_ = factorization_.Factorize(*A_);
+  const bool imprecise = usable_ && factorized_step_ == step_;
+  if (!imprecise && parameters_.precision == Precision::kSingle &&
+      FactorizeWith(Precision::kSingle)) {
+    return true;
+  }
+  return FactorizeWith(Precision::kDouble);
+}
+
+bool LinearSolver::FactorizeWith(Precision precision) {
+  usable_ = factorization_.Factorize(system_->A_ff(), precision);
   factorized_step_ = step_;
   iterations_since_ = 0;
+  iterations_before_ = iterations_;
   ++generation_;
   ++factorizations_;
   return usable_;
 }
 
 VectorXd LinearSolver::Residual(const VectorXd& b, const VectorXd& dv) const {
-  VectorXd r = b;
-  r.noalias() -= A_->selfadjointView<Eigen::Lower>() * dv;
-  return r;
+  return b - system_->Multiply(dv);
 }
 
-bool LinearSolver::Refine(const VectorXd& b, const DelassusOperator& delassus,
-                          const std::vector<Index>& held, VectorXd* dv, VectorXd* lambda) {
-  const double bound = parameters_.tolerance * b.norm();
-  VectorXd r = Residual(b, *dv);
-  delassus.AddImpulses(*lambda, &r);
+bool LinearSolver::Refine(const SystemVector& b, const ConstraintOperator& constraints,
+                          const std::vector<Index>& held, SystemVector* dv, VectorXd* lambda) {
+  const double bound = parameters_.tolerance * std::max(b.cup.norm(), system_->ImpulseScale());
+  SystemVector r{Residual(b.cup, dv->cup), b.bodies - constraints.BodyImpulses(dv->bodies)};
+  constraints.AddImpulses(*lambda, &r);
   if (r.norm() <= bound) return true;
 
-  const HeldPreconditioner preconditioner(factorization_, delassus, held);
-  VectorXd p = VectorXd::Zero(b.size());
-  VectorXd Ap(b.size());
+  const HeldPreconditioner preconditioner(factorization_, constraints, held);
+  if (!preconditioner.usable()) return false;
+  SystemVector p{VectorXd::Zero(b.cup.size()), VectorXd::Zero(b.bodies.size())};
   double rz = 1.0;
   const double start = r.norm();
   for (int i = 0; !Hopeless(i, start, r.norm(), bound); ++i) {
     ++iterations_;
-    const VectorXd z = preconditioner.Solve(&r, lambda);
+    const SystemVector z = preconditioner.Solve(&r, lambda);
     if (r.norm() <= bound) return true;
     const double rz_before = std::exchange(rz, r.dot(z));
-    p = z + (rz / rz_before) * p;
-    Ap.noalias() = A_->selfadjointView<Eigen::Lower>() * p;
+    p *= rz / rz_before;
+    p.Add(1.0, z);
+    const SystemVector Ap{system_->Multiply(p.cup), constraints.BodyImpulses(p.bodies)};
     const double pAp = p.dot(Ap);
     if (!(pAp > 0.0)) return false;  // A is not positive definite
-    *dv += (rz / pAp) * p;
-    r -= (rz / pAp) * Ap;
+    dv->Add(rz / pAp, p);
+    r.Add(-rz / pAp, Ap);
     if (r.norm() <= bound) return true;
   }
   return false;

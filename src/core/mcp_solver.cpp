@@ -110,6 +110,17 @@ McpStatistics ActiveSet(const Eigen::MatrixXd& W, const Eigen::VectorXd& delta,
 
 }  // namespace
 
+Eigen::LLT<Eigen::MatrixXd> FactorOfContacts(const Eigen::MatrixXd& W_lower) {
+  Eigen::LLT<Eigen::MatrixXd> factor;
+  for (double share = kContactRegularization; share < 1e-5; share *= 1e3) {
+    Eigen::MatrixXd W = W_lower;
+    W.diagonal() *= 1.0 + share;
+    factor.compute(W);
+    if (factor.info() == Eigen::Success) break;
+  }
+  return factor;
+}
+
 McpStatistics SolveContacts(const Eigen::MatrixXd& W, const Eigen::VectorXd& delta,
                             const ContactParameters& parameters, Eigen::VectorXd* lambda) {
   if (W.rows() != delta.size() || W.cols() != delta.size() || lambda->size() != delta.size()) {

@@ -90,7 +90,7 @@ class Simulator::Implementation {
         rest_M_(MountFromRest(mesh_) * mesh_.nodes),
         body_(mesh_, parameters.material),
         system_(body_, mesh_.mount_nodes),
-        solver_(parameters.linear_solver, system_.A_ff()),
+        solver_(parameters.linear_solver, &system_),
         stage_(mesh_, system_, &solver_, SurfaceNodes(mesh_), parameters.contact),
         suction_(cavity_, parameters_.seal, parameters.regulator,
                  parameters.material.young_modulus) {
@@ -235,7 +235,7 @@ bool Simulator::Implementation::Advance(const Command& command) {
   }
   {
     const Stopwatch stopwatch(&timings->factorization);
-    if (!solver_.Compute(system_.A_ff())) {
+    if (!solver_.Compute()) {
       return fail(StepOutcome::kNonFinite, "A is not positive definite");
     }
   }
@@ -250,7 +250,7 @@ bool Simulator::Implementation::Advance(const Command& command) {
                       timings)) {
     return fail(StepOutcome::kNonFinite, "A is not positive definite");
   }
-  if (!solution.contact.x_W.allFinite() || !solution.contact.dV.allFinite()) {
+  if (!solution.contact.x_W.allFinite() || !solution.contact.dv.bodies.allFinite()) {
     return fail(StepOutcome::kNonFinite, "the corrected motion is not finite");
   }
   result_.solver_iterations = solution.contact.statistics.iterations;
@@ -264,9 +264,9 @@ bool Simulator::Implementation::Advance(const Command& command) {
   }
 
   // 5) Motion correction.
-  state_.v_W += system_.Scatter(solution.contact.dv_f, dv_c);
+  state_.v_W += system_.Scatter(solution.contact.dv.cup, dv_c);
   state_.x_W = solution.contact.x_W;
-  world_.Advance(solution.contact.dV, h);
+  world_.Advance(solution.contact.dv.bodies, h);
 
   const Stopwatch stopwatch(&timings->correction);
   result_.X_WM = command.X_WM;
@@ -280,7 +280,7 @@ bool Simulator::Implementation::Advance(const Command& command) {
 /// Force of the cup on its mount: what holds the clamped nodes, turned round. See ImplicitEuler.
 void Simulator::Implementation::ReportWrench(const SuctionSolution& solution,
                                              const Eigen::Matrix3Xd& dv_c) {
-  const Eigen::Matrix3Xd reaction = system_.ClampedReaction(solution.contact.dv_f, dv_c);
+  const Eigen::Matrix3Xd reaction = system_.ClampedReaction(solution.contact.dv.cup, dv_c);
   Eigen::Vector3d force_W = Eigen::Vector3d::Zero();
   Eigen::Vector3d torque_W = Eigen::Vector3d::Zero();
   for (Eigen::Index i = 0; i < reaction.cols(); ++i) {

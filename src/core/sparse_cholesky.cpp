@@ -10,23 +10,25 @@ namespace vacuum_gripper_sim {
 namespace {
 
 using Eigen::Index;
-using ConstPanel = Eigen::Map<const Eigen::MatrixXd>;
+template <typename Scalar>
+using Vector = Eigen::Matrix<Scalar, Eigen::Dynamic, 1>;
+template <typename Scalar>
+using ConstPanel = Eigen::Map<const Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>>;
 
-}  // namespace
-
-/// Extend-add: columns [begin, end) of a child's update go into its parent's front.
+/// Extend-add: columns [begin, end) of a child's update, #rows square, go into its parent's front.
+/// @param in_parent Place of every node of the update in the front.
 /// @param target Where column 0, row 0 of the front would stand. @param stride Of its columns.
-void SparseCholesky::AddChild(const Supernode& child, std::size_t begin, std::size_t end,
-                              double* target, Index stride) const {
-  const double* const update = UpdateOf(child);
-  const Index child_stride = 3 * child.num_below();
+template <typename Scalar>
+void AddChild(const Scalar* update, const std::vector<int>& in_parent, std::size_t begin,
+              std::size_t end, Scalar* target, Index stride) {
+  const auto update_stride = 3 * static_cast<Index>(in_parent.size());
   for (std::size_t b = begin; b < end; ++b) {
     for (int j = 0; j < 3; ++j) {
-      const double* const source = update + (3 * static_cast<Index>(b) + j) * child_stride;
-      double* const column = target + (3 * child.in_parent[b] + j) * stride;
-      for (std::size_t a = b; a < child.in_parent.size(); ++a) {
-        double* const to = column + 3 * child.in_parent[a];
-        const double* const from = source + 3 * a;
+      const Scalar* const source = update + (3 * static_cast<Index>(b) + j) * update_stride;
+      Scalar* const column = target + (3 * in_parent[b] + j) * stride;
+      for (std::size_t a = b; a < in_parent.size(); ++a) {
+        Scalar* const to = column + 3 * in_parent[a];
+        const Scalar* const from = source + 3 * a;
         to[0] += from[0];
         to[1] += from[1];
         to[2] += from[2];
@@ -35,77 +37,116 @@ void SparseCholesky::AddChild(const Supernode& child, std::size_t begin, std::si
   }
 }
 
-bool SparseCholesky::Factorize(const Eigen::SparseMatrix<double>& A) {
+}  // namespace
+
+bool SparseCholesky::Factorize(const Eigen::SparseMatrix<double>& A, Precision precision) {
+  if (precision == Precision::kSingle && !std::holds_alternative<Numbers<float>>(numbers_)) {
+    numbers_ = Numbers<float>();
+  } else if (precision == Precision::kDouble &&
+             !std::holds_alternative<Numbers<double>>(numbers_)) {
+    numbers_ = Numbers<double>();
+  }
+  return std::visit([&](auto& numbers) { return Factorize(A, &numbers); }, numbers_);
+}
+
+Eigen::VectorXd SparseCholesky::Eliminate(const Eigen::VectorXd& b) const {
+  return std::visit([&](const auto& numbers) { return Eliminate(numbers, b); }, numbers_);
+}
+
+Eigen::VectorXd SparseCholesky::BackSubstitute(const Eigen::VectorXd& y) const {
+  return std::visit([&](const auto& numbers) { return BackSubstitute(numbers, y); }, numbers_);
+}
+
+EliminatedColumns SparseCholesky::EliminateColumns(const std::vector<NodeColumn>& B) const {
+  return std::visit([&](const auto& numbers) { return EliminateColumns(numbers, B); }, numbers_);
+}
+
+template <typename Scalar>
+bool SparseCholesky::Factorize(const Eigen::SparseMatrix<double>& A,
+                               Numbers<Scalar>* numbers) const {
+  numbers->factor.resize(factor_size_);
+  for (std::size_t i = 0; i < 2; ++i) numbers->updates[i].resize(update_sizes_[i]);
   for (const Supernode& front : supernodes_) {
-    double* const panel = factor_.data() + front.offset;
+    Scalar* const panel = numbers->factor.data() + front.offset;
     const Index rows = 3 * front.num_rows();
     const Index own = 3 * front.width;
     const Index below = rows - own;
-    std::fill_n(panel, rows * own, 0.0);
+    std::fill_n(panel, rows * own, Scalar(0));
     for (std::size_t e = front.entries_begin; e < front.entries_end; ++e) {
-      panel[entries_[e].second] += A.valuePtr()[entries_[e].first];
+      panel[entries_[e].second] += static_cast<Scalar>(A.valuePtr()[entries_[e].first]);
     }
     for (const int c : front.children) {
       const Supernode& child = supernodes_[static_cast<std::size_t>(c)];
-      AddChild(child, 0, child.num_in_own, panel, rows);
+      AddChild(numbers->UpdateOf(child), child.in_parent, 0, child.num_in_own, panel, rows);
     }
     if (!FactorizePanel(rows, own, panel)) return false;
     if (below == 0) continue;
-    double* const update = UpdateOf(front);
+    Scalar* const update = numbers->UpdateOf(front);
     NegativeSquare(below, own, panel + own, rows, update);
     for (const int c : front.children) {
       const Supernode& child = supernodes_[static_cast<std::size_t>(c)];
-      AddChild(child, child.num_in_own, child.in_parent.size(), update - own * (below + 1), below);
+      AddChild(numbers->UpdateOf(child), child.in_parent, child.num_in_own, child.in_parent.size(),
+               update - own * (below + 1), below);
     }
   }
   return true;
 }
 
-Eigen::VectorXd SparseCholesky::Eliminate(const Eigen::VectorXd& b) const {
-  Eigen::VectorXd y(size_);
+template <typename Scalar>
+Eigen::VectorXd SparseCholesky::Eliminate(const Numbers<Scalar>& numbers,
+                                          const Eigen::VectorXd& b) const {
+  Vector<Scalar> y(size_);
   for (std::size_t k = 0; k < node_at_.size(); ++k) {
-    y.segment<3>(3 * static_cast<Index>(k)) = b.segment<3>(3 * node_at_[k]);
+    y.template segment<3>(3 * static_cast<Index>(k)) =
+        b.segment<3>(3 * node_at_[k]).template cast<Scalar>();
   }
-  Eigen::VectorXd work(largest_front_);
+  Vector<Scalar> work(largest_front_);
   for (const Supernode& front : supernodes_) {
-    const ConstPanel F(factor_.data() + front.offset, 3 * front.num_rows(), 3 * front.width);
+    const ConstPanel<Scalar> F(numbers.factor.data() + front.offset, 3 * front.num_rows(),
+                               3 * front.width);
     auto own = y.segment(3 * front.first, 3 * front.width);
-    F.topRows(F.cols()).triangularView<Eigen::Lower>().solveInPlace(own);
+    F.topRows(F.cols()).template triangularView<Eigen::Lower>().solveInPlace(own);
     if (front.num_below() == 0) continue;
     auto below = work.head(3 * front.num_below());
     below.noalias() = F.bottomRows(F.rows() - F.cols()) * own;
     for (int r = 0; r < front.num_below(); ++r) {
-      y.segment<3>(3 * front.rows[static_cast<std::size_t>(front.width + r)]) -=
-          below.segment<3>(3 * r);
+      y.template segment<3>(3 * front.rows[static_cast<std::size_t>(front.width + r)]) -=
+          below.template segment<3>(3 * r);
     }
   }
-  return y;
+  return y.template cast<double>();
 }
 
-Eigen::VectorXd SparseCholesky::BackSubstitute(Eigen::VectorXd y) const {
-  Eigen::VectorXd work(largest_front_);
+template <typename Scalar>
+Eigen::VectorXd SparseCholesky::BackSubstitute(const Numbers<Scalar>& numbers,
+                                               const Eigen::VectorXd& y_given) const {
+  Vector<Scalar> y = y_given.template cast<Scalar>();
+  Vector<Scalar> work(largest_front_);
   for (auto front = supernodes_.rbegin(); front != supernodes_.rend(); ++front) {
-    const ConstPanel F(factor_.data() + front->offset, 3 * front->num_rows(), 3 * front->width);
+    const ConstPanel<Scalar> F(numbers.factor.data() + front->offset, 3 * front->num_rows(),
+                               3 * front->width);
     auto own = y.segment(3 * front->first, 3 * front->width);
     if (front->num_below() > 0) {
       auto below = work.head(3 * front->num_below());
       for (int r = 0; r < front->num_below(); ++r) {
-        below.segment<3>(3 * r) =
-            y.segment<3>(3 * front->rows[static_cast<std::size_t>(front->width + r)]);
+        below.template segment<3>(3 * r) =
+            y.template segment<3>(3 * front->rows[static_cast<std::size_t>(front->width + r)]);
       }
       own.noalias() -= F.bottomRows(F.rows() - F.cols()).transpose() * below;
     }
-    F.topRows(F.cols()).triangularView<Eigen::Lower>().transpose().solveInPlace(own);
+    F.topRows(F.cols()).template triangularView<Eigen::Lower>().transpose().solveInPlace(own);
   }
   Eigen::VectorXd x(size_);
   for (std::size_t k = 0; k < node_at_.size(); ++k) {
-    x.segment<3>(3 * node_at_[k]) = y.segment<3>(3 * static_cast<Index>(k));
+    x.segment<3>(3 * node_at_[k]) =
+        y.template segment<3>(3 * static_cast<Index>(k)).template cast<double>();
   }
   return x;
 }
 
 /// Sorts the columns, gives a block to every front that one reaches, and fills in B.
 /// @param[out] block_of By supernode; -1: not reached.
+template <typename Scalar>
 EliminatedColumns SparseCholesky::LayOutColumns(const std::vector<NodeColumn>& B,
                                                 std::vector<int>* block_of) const {
   const auto start = [&](int c) {
@@ -134,42 +175,48 @@ EliminatedColumns SparseCholesky::LayOutColumns(const std::vector<NodeColumn>& B
     Y.blocks_.push_back({3 * front.first, 3 * front.width, begin, num_columns, offset});
     offset += static_cast<std::size_t>(3 * front.width * num_columns);
   }
-  Y.values_.assign(offset, 0.0);
+  auto& values = Y.values_.emplace<std::vector<Scalar>>(offset, Scalar(0));
   for (std::size_t k = 0; k < B.size(); ++k) {
     const int position = start(Y.order_[k]);
     const int s = supernode_of_[static_cast<std::size_t>(position)];
     const auto& block =
         Y.blocks_[static_cast<std::size_t>((*block_of)[static_cast<std::size_t>(s)])];
-    Y.Values(block).row(static_cast<Index>(k) - block.column).segment<3>(3 * position - block.row) =
-        B[static_cast<std::size_t>(Y.order_[k])].value.transpose();
+    Y.Values(&values, block)
+        .row(static_cast<Index>(k) - block.column)
+        .template segment<3>(3 * position - block.row) =
+        B[static_cast<std::size_t>(Y.order_[k])].value.transpose().template cast<Scalar>();
   }
   return Y;
 }
 
-EliminatedColumns SparseCholesky::EliminateColumns(const std::vector<NodeColumn>& B) const {
+template <typename Scalar>
+EliminatedColumns SparseCholesky::EliminateColumns(const Numbers<Scalar>& numbers,
+                                                   const std::vector<NodeColumn>& B) const {
   std::vector<int> block_of;
-  EliminatedColumns Y = LayOutColumns(B, &block_of);
-  std::vector<double> work(static_cast<std::size_t>(largest_front_) * B.size());
+  EliminatedColumns Y = LayOutColumns<Scalar>(B, &block_of);
+  auto& values = std::get<std::vector<Scalar>>(Y.values_);
+  std::vector<Scalar> work(static_cast<std::size_t>(largest_front_) * B.size());
   for (std::size_t s = 0; s < supernodes_.size(); ++s) {
     if (block_of[s] < 0) continue;
     const Supernode& front = supernodes_[s];
     const EliminatedColumns::Block& block = Y.blocks_[static_cast<std::size_t>(block_of[s])];
-    const double* const panel = factor_.data() + front.offset;
+    const Scalar* const panel = numbers.factor.data() + front.offset;
     const Index rows = 3 * front.num_rows();
     const Index own = 3 * front.width;
-    double* const Y_own = Y.values_.data() + block.offset;
+    Scalar* const Y_own = values.data() + block.offset;
     SolveOnTheRight(block.num_columns, own, panel, rows, Y_own);
     if (rows == own) continue;
     NegativeProduct(block.num_columns, rows - own, own, Y_own, block.num_columns, panel + own, rows,
                     work.data());
-    const ConstPanel update(work.data(), block.num_columns, rows - own);
+    const ConstPanel<Scalar> update(work.data(), block.num_columns, rows - own);
     for (int r = 0; r < front.num_below(); ++r) {
       const int position = front.rows[static_cast<std::size_t>(front.width + r)];
       const int above = supernode_of_[static_cast<std::size_t>(position)];
       const auto& target =
           Y.blocks_[static_cast<std::size_t>(block_of[static_cast<std::size_t>(above)])];
-      Y.Values(target).block(block.column - target.column, 3 * position - target.row,
-                             block.num_columns, 3) += update.middleCols(3 * r, 3);
+      Y.Values(&values, target)
+          .block(block.column - target.column, 3 * position - target.row, block.num_columns, 3) +=
+          update.middleCols(3 * r, 3);
     }
   }
   return Y;

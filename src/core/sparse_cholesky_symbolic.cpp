@@ -231,7 +231,7 @@ void SparseCholesky::LinkSupernodes() {
       if (supernode.in_parent.back() < parent.width) ++supernode.num_in_own;
     }
   }
-  factor_.resize(offset);
+  factor_size_ = offset;
 }
 
 void SparseCholesky::PlaceUpdates() {
@@ -241,17 +241,16 @@ void SparseCholesky::PlaceUpdates() {
     }
   }
   std::array<std::size_t, 2> top{};
-  std::array<std::size_t, 2> size{};
+  update_sizes_ = {};
   for (Supernode& front : supernodes_) {
     const auto own = static_cast<std::size_t>(front.depth % 2);
     front.update_offset = top[own];
     top[own] += static_cast<std::size_t>(9 * front.num_below() * front.num_below());
-    size[own] = std::max(size[own], top[own]);
+    update_sizes_[own] = std::max(update_sizes_[own], top[own]);
     if (!front.children.empty()) {
       top[1 - own] = supernodes_[static_cast<std::size_t>(front.children.front())].update_offset;
     }
   }
-  for (std::size_t i = 0; i < 2; ++i) updates_[i].resize(size[i]);
 }
 
 void SparseCholesky::MapEntries(const Eigen::SparseMatrix<double>& A) {

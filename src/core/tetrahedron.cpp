@@ -5,17 +5,13 @@
 namespace vacuum_gripper_sim {
 namespace {
 
-/// At the integration points.
-template <typename Element, typename Law>
-using Tangents = std::array<typename Law::Tangent, Element::kPoints>;
-
 /// dP = lambda (R : dF) R + mu (dF + R dF^T R) gives, with g_a = R dN_a/dX and M_ab the weighted
 /// sum of g_a g_b^T,
 ///
 ///     K_ab = lambda M_ab + mu (M_ba + tr(M_ab) I).
 template <typename Element>
 void SetStiffness(const Element& element, const CorotationalLaw& law,
-                  const Tangents<Element, CorotationalLaw>& tangents,
+                  const PointTangents<Element, CorotationalLaw>& tangents,
                   typename Element::Stiffness* K) {
   constexpr int kLanes = Element::kLanes;
   Eigen::Matrix<double, 3 * kLanes, Element::kPoints> g;  // times the weight's root
@@ -44,7 +40,7 @@ void SetStiffness(const Element& element, const CorotationalLaw& law,
 /// Any tangent: K_ab(i, k) is the sum over J, L of dN_a/dX_J tangent(iJ, kL) dN_b/dX_L.
 template <typename Element>
 void SetStiffness(const Element& element, const NeoHookeanLaw&,
-                  const Tangents<Element, NeoHookeanLaw>& tangents,
+                  const PointTangents<Element, NeoHookeanLaw>& tangents,
                   typename Element::Stiffness* K) {
   constexpr int kLanes = Element::kLanes;
   using Gradients =
@@ -76,7 +72,7 @@ void ElementForces(const Tetrahedron<N, Q>& element, const Law& law,
                    typename Tetrahedron<N, Q>::NodalVectors* f,
                    typename Tetrahedron<N, Q>::Stiffness* K) {
   f->setZero();
-  Tangents<Tetrahedron<N, Q>, Law> tangents;
+  PointTangents<Tetrahedron<N, Q>, Law> tangents;
   for (std::size_t q = 0; q < Q; ++q) {
     Eigen::Matrix3d F;
     F.noalias() = x.transpose().lazyProduct(element.gradients[q]);
@@ -87,9 +83,18 @@ void ElementForces(const Tetrahedron<N, Q>& element, const Law& law,
   if (K != nullptr) SetStiffness(element, law, tangents, K);
 }
 
-#define VACUUM_GRIPPER_INSTANTIATE(Element, Law)                                        \
-  template void ElementForces(const Element&, const Law&, const Element::NodalVectors&, \
-                              Element::NodalVectors*, Element::Stiffness*)
+template <int N, int Q, typename Law>
+void ElementStiffness(const Tetrahedron<N, Q>& element, const Law& law,
+                      const PointTangents<Tetrahedron<N, Q>, Law>& tangents,
+                      typename Tetrahedron<N, Q>::Stiffness* K) {
+  SetStiffness(element, law, tangents, K);
+}
+
+#define VACUUM_GRIPPER_INSTANTIATE(Element, Law)                                                 \
+  template void ElementForces(const Element&, const Law&, const Element::NodalVectors&,          \
+                              Element::NodalVectors*, Element::Stiffness*);                      \
+  template void ElementStiffness(const Element&, const Law&, const PointTangents<Element, Law>&, \
+                                 Element::Stiffness*)
 VACUUM_GRIPPER_INSTANTIATE(LinearTetrahedron, CorotationalLaw);
 VACUUM_GRIPPER_INSTANTIATE(LinearTetrahedron, NeoHookeanLaw);
 VACUUM_GRIPPER_INSTANTIATE(QuadraticTetrahedron, CorotationalLaw);

@@ -49,6 +49,7 @@ constexpr Required kRequired[] = {
     {"seal", "max_rounds"},
     {"seal", "ramp_increments"},
     {"linear_solver", "method"},
+    {"linear_solver", "precision"},
     {"linear_solver", "tolerance"},
     {"linear_solver", "max_iterations"},
     {"linear_solver", "refactor_interval"},

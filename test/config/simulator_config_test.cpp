@@ -19,6 +19,7 @@ TEST(SimulatorConfig, NothingSetGivesTheDefaults) {
   const SimulatorParameters expected;
   EXPECT_EQ(read.gravity, expected.gravity);
   EXPECT_EQ(read.linear_solver.method, expected.linear_solver.method);
+  EXPECT_EQ(read.linear_solver.precision, expected.linear_solver.precision);
   EXPECT_EQ(read.contact.method, expected.contact.method);
   EXPECT_EQ(read.contact.tolerance, expected.contact.tolerance);
   EXPECT_EQ(read.seal.open_gap, expected.seal.open_gap);
@@ -28,7 +29,8 @@ TEST(SimulatorConfig, NothingSetGivesTheDefaults) {
 TEST(SimulatorConfig, ReadsEveryKey) {
   const SimulatorParameters p = Read(R"(
 gravity: [1.0, 2.0, 3.0]
-linear_solver: {method: conjugate_gradient, tolerance: 0.1, max_iterations: 2, refactor_interval: 3}
+linear_solver: {method: conjugate_gradient, precision: double, tolerance: 0.1, max_iterations: 2,
+                refactor_interval: 3}
 contact: {solver: gauss_seidel, tolerance: 0.4, acceptable_residual: 0.45, max_iterations: 5,
           relaxation: 1.6, alarm_distance: 0.7}
 seal: {close_gap: 0.8, open_gap: 0.9, max_rounds: 10, ramp_increments: 11}
@@ -36,6 +38,7 @@ regulator: {default_pressure: -12.0, min_pressure: -13.0, ramp_rate: 14.0}
 )");
   EXPECT_EQ(p.gravity, Eigen::Vector3d(1.0, 2.0, 3.0));
   EXPECT_EQ(p.linear_solver.method, LinearSolverMethod::kConjugateGradient);
+  EXPECT_EQ(p.linear_solver.precision, Precision::kDouble);
   EXPECT_EQ(p.linear_solver.tolerance, 0.1);
   EXPECT_EQ(p.linear_solver.max_iterations, 2);
   EXPECT_EQ(p.linear_solver.refactor_interval, 3);

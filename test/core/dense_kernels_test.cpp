@@ -3,71 +3,86 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Cholesky>
+#include <limits>
 
 namespace vacuum_gripper_sim {
 namespace {
 
 using Eigen::Index;
-using Eigen::MatrixXd;
+
+template <typename Scalar>
+class DenseKernels : public testing::Test {
+ protected:
+  using Matrix = Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>;
+  /// Some hundred roundings.
+  static constexpr double kError = 500.0 * std::numeric_limits<Scalar>::epsilon();
+
+  static Matrix PositiveDefinite(Index size) {
+    const Matrix root = Matrix::Random(size, size);
+    return root * root.transpose() + static_cast<Scalar>(size) * Matrix::Identity(size, size);
+  }
+};
+using Scalars = testing::Types<double, float>;
+TYPED_TEST_SUITE(DenseKernels, Scalars);
 
 // Sizes that leave every remainder of tiles, and more columns than are worked on at a time.
 const Index kRows[] = {3, 6, 9, 15, 24, 51, 105, 171};
 const Index kColumns[] = {3, 6, 15, 48, 51, 105};
 
-MatrixXd PositiveDefinite(Index size) {
-  const MatrixXd root = MatrixXd::Random(size, size);
-  return root * root.transpose() + static_cast<double>(size) * MatrixXd::Identity(size, size);
-}
-
-TEST(DenseKernels, ProductsAreThoseOfMatrices) {
+TYPED_TEST(DenseKernels, ProductsAreThoseOfMatrices) {
+  using Matrix = typename TestFixture::Matrix;
   for (const Index rows : kRows) {
     for (const Index depth : kColumns) {
-      const MatrixXd A = MatrixXd::Random(rows + 2, depth);  // a part of a larger panel
-      MatrixXd square(rows, rows);
+      const Matrix A = Matrix::Random(rows + 2, depth);  // a part of a larger panel
+      Matrix square(rows, rows);
       NegativeSquare(rows, depth, A.data() + 1, A.rows(), square.data());
-      const MatrixXd part = A.middleRows(1, rows);
-      const MatrixXd expected = -part * part.transpose();
-      const MatrixXd error = (square - expected).triangularView<Eigen::Lower>();
-      EXPECT_LT(error.norm(), 1e-13 * expected.norm()) << rows << " " << depth;
+      const Matrix part = A.middleRows(1, rows);
+      const Matrix expected = -part * part.transpose();
+      const Matrix error = (square - expected).template triangularView<Eigen::Lower>();
+      EXPECT_LT(error.norm(), TestFixture::kError * expected.norm()) << rows << " " << depth;
 
-      const MatrixXd B = MatrixXd::Random(15, depth);
-      MatrixXd product(rows, 15);
+      const Matrix B = Matrix::Random(15, depth);
+      Matrix product(rows, 15);
       NegativeProduct(rows, 15, depth, A.data() + 1, A.rows(), B.data(), 15, product.data());
-      EXPECT_LT((product + part * B.transpose()).norm(), 1e-12 * product.norm());
+      EXPECT_LT((product + part * B.transpose()).norm(), TestFixture::kError * product.norm());
     }
   }
 }
 
-TEST(DenseKernels, APanelIsFactorisedAsTheWholeMatrix) {
+TYPED_TEST(DenseKernels, APanelIsFactorisedAsTheWholeMatrix) {
+  using Matrix = typename TestFixture::Matrix;
   for (const Index rows : kRows) {
-    const MatrixXd A = PositiveDefinite(rows);
-    const MatrixXd L = A.llt().matrixL();
+    const Matrix A = TestFixture::PositiveDefinite(rows);
+    const Matrix L = A.llt().matrixL();
     for (const Index columns : kColumns) {
       if (columns > rows) continue;
-      MatrixXd F = A.leftCols(columns);
+      Matrix F = A.leftCols(columns);
       ASSERT_TRUE(FactorizePanel(rows, columns, F.data()));
-      const MatrixXd error = MatrixXd(F - L.leftCols(columns)).triangularView<Eigen::Lower>();
-      EXPECT_LT(error.norm(), 1e-13 * L.norm()) << rows << " " << columns;
+      const Matrix error = Matrix(F - L.leftCols(columns)).template triangularView<Eigen::Lower>();
+      EXPECT_LT(error.norm(), TestFixture::kError * L.norm()) << rows << " " << columns;
     }
   }
 }
 
-TEST(DenseKernels, APanelThatIsNotPositiveDefiniteIsRefused) {
+TYPED_TEST(DenseKernels, APanelThatIsNotPositiveDefiniteIsRefused) {
+  using Matrix = typename TestFixture::Matrix;
   for (const Index bad : {0, 5, 50, 104}) {
-    MatrixXd A = PositiveDefinite(105);
-    A(bad, bad) = -1.0;
+    Matrix A = TestFixture::PositiveDefinite(105);
+    A(bad, bad) = -1;
     EXPECT_FALSE(FactorizePanel(105, 105, A.data())) << bad;
   }
 }
 
-TEST(DenseKernels, SolvesOnTheRight) {
+TYPED_TEST(DenseKernels, SolvesOnTheRight) {
+  using Matrix = typename TestFixture::Matrix;
   for (const Index columns : kColumns) {
-    const MatrixXd L = PositiveDefinite(columns).llt().matrixL();
+    const Matrix L = TestFixture::PositiveDefinite(columns).llt().matrixL();
     for (const Index rows : {1, 2, 7, 8, 100}) {
-      const MatrixXd X = MatrixXd::Random(rows, columns);
-      MatrixXd solved = X;
+      const Matrix X = Matrix::Random(rows, columns);
+      Matrix solved = X;
       SolveOnTheRight(rows, columns, L.data(), columns, solved.data());
-      EXPECT_LT((solved * L.transpose() - X).norm(), 1e-12 * X.norm()) << rows << " " << columns;
+      EXPECT_LT((solved * L.transpose() - X).norm(), TestFixture::kError * X.norm())
+          << rows << " " << columns;
     }
   }
 }

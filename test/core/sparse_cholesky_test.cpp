@@ -26,6 +26,18 @@ Eigen::MatrixXd Dense(const Eigen::SparseMatrix<double>& lower) {
   return Eigen::MatrixXd(Eigen::MatrixXd(lower).selfadjointView<Eigen::Lower>());
 }
 
+/// Columns at random nodes, some of them twice.
+std::vector<NodeColumn> RandomColumns(Eigen::Index num_rows, int num_columns, unsigned int seed) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+  std::uniform_int_distribution<int> node(0, static_cast<int>(num_rows) / 3 - 1);
+  std::vector<NodeColumn> columns(static_cast<std::size_t>(num_columns));
+  for (NodeColumn& column : columns) {
+    column = {node(random), {uniform(random), uniform(random), uniform(random)}};
+  }
+  return columns;
+}
+
 TEST(SparseCholesky, SolvesLikeADenseFactorisation) {
   for (const bool quadratic : {false, true}) {
     for (const int cells : {1, 2, 4}) {
@@ -45,6 +57,28 @@ TEST(SparseCholesky, SolvesLikeADenseFactorisation) {
   }
 }
 
+// Single precision by request, and double again after it.
+TEST(SparseCholesky, PrecisionIsChosenByFactorisation) {
+  const Eigen::SparseMatrix<double> A = StepMatrix(3, true);
+  SparseCholesky cholesky;
+  cholesky.Analyze(A);
+  const Eigen::VectorXd b = Eigen::VectorXd::LinSpaced(A.cols(), -1.0, 2.0);
+  const Eigen::VectorXd expected = Dense(A).llt().solve(b);
+  const auto columns = RandomColumns(A.rows(), 30, 5);
+  ASSERT_TRUE(cholesky.Factorize(A));
+  const Eigen::MatrixXd W = cholesky.EliminateColumns(columns).Gram();
+  for (const Precision precision : {Precision::kSingle, Precision::kDouble}) {
+    ASSERT_TRUE(cholesky.Factorize(A, precision));
+    EXPECT_EQ(cholesky.precision(), precision);
+    const double share = precision == Precision::kSingle ? 1e-3 : 1e-11;
+    const double error = (cholesky.Solve(b) - expected).norm() / expected.norm();
+    EXPECT_LT(error, share);
+    const double W_error = (cholesky.EliminateColumns(columns).Gram() - W).norm() / W.norm();
+    EXPECT_LT(W_error, share);
+    EXPECT_EQ(error > 1e-10, precision == Precision::kSingle);
+  }
+}
+
 // Separate bodies are separate trees.
 TEST(SparseCholesky, HandlesAForest) {
   std::vector<Eigen::Triplet<double>> entries;
@@ -57,18 +91,6 @@ TEST(SparseCholesky, HandlesAForest) {
   ASSERT_TRUE(cholesky.Factorize(A));
   const Eigen::VectorXd b = Eigen::VectorXd::Ones(12);
   EXPECT_LT((Dense(A) * cholesky.Solve(b) - b).norm(), 1e-14);
-}
-
-/// Columns at random nodes, some of them twice.
-std::vector<NodeColumn> RandomColumns(Eigen::Index num_rows, int num_columns, unsigned int seed) {
-  std::mt19937 random(seed);
-  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
-  std::uniform_int_distribution<int> node(0, static_cast<int>(num_rows) / 3 - 1);
-  std::vector<NodeColumn> columns(static_cast<std::size_t>(num_columns));
-  for (NodeColumn& column : columns) {
-    column = {node(random), {uniform(random), uniform(random), uniform(random)}};
-  }
-  return columns;
 }
 
 Eigen::MatrixXd Dense(const std::vector<NodeColumn>& columns, Eigen::Index num_rows) {

@@ -74,6 +74,7 @@ class GripWorld {
     iterations = std::max(iterations, result().solver_iterations);
     time_spent += result().timings.total;
     ++steps;
+    linear_iterations += result().linear_iterations;
   }
   const StepResult& result() const { return simulator_.result(); }
   const ObjectResult& object(int i) const { return result().objects[static_cast<std::size_t>(i)]; }
@@ -84,6 +85,7 @@ class GripWorld {
   int undone_steps{0};
   int iterations{0};
   int steps{0};
+  int linear_iterations{0};
   double time_spent{0.0};
   double max_penetration{0.0};
 

@@ -121,8 +121,10 @@ TEST(RigidBodies, QuadraticCupCarriesTheSameWeight) {
   EXPECT_NEAR(world.object(1).force_W.z(), weight, 1e-3 * weight);
 }
 
-// Without friction nothing but the lip's shape centres what it holds: a ball does that.
-TEST(RigidBodies, BallInTheLipIsCentredAndWeighed) {
+// Off the cup's axis by half a millimetre, held by the lip all round. Normals turn during a step,
+// and the reported force is that along the last of them.
+TEST(RigidBodies, BallInTheLipIsWeighed) {
+  const double friction = 0.3;
   const double radius = 0.035;
   const double mass = 0.08;
   RigidObject ball = FixedObject(RigidSurface{"ball", Sphere{radius}});
@@ -131,7 +133,8 @@ TEST(RigidBodies, BallInTheLipIsCentredAndWeighed) {
   inertia.mass = mass;
   inertia.about_C_O = 0.4 * mass * radius * radius * Eigen::Matrix3d::Identity();
   ball.inertia = inertia;
-  GripWorld world({Table(0.0), ball}, {0.0, 0.0, 2.0 * radius + kCupLength + 1e-3},
+  ball.surfaces[0].friction = friction;
+  GripWorld world({Table(friction), ball}, {0.0, 0.0, 2.0 * radius + kCupLength + 1e-3},
                   WithGravity(A20(0.01)));
   const double top = 2.0 * radius + kCupLength;
   world.MoveTo({0.0, 0.0, top - 6e-3}, 0.02, kSuction);
@@ -140,8 +143,9 @@ TEST(RigidBodies, BallInTheLipIsCentredAndWeighed) {
   world.Wait(3.0, kSuction);
   EXPECT_EQ(world.undone_steps, 0);
   ASSERT_EQ(world.result().status, SealStatus::kSealed);
-  EXPECT_NEAR(world.object(1).force_W.z(), mass * kGravity, 1e-3 * mass * kGravity);
-  EXPECT_LT(world.object(1).X_WO.translation().head<2>().norm(), 3e-4);
+  EXPECT_NEAR(world.object(1).force_W.z(), mass * kGravity, 3e-3 * mass * kGravity);
+  EXPECT_LT(world.object(1).velocity_W.norm(), 1e-3);
+  EXPECT_LT(world.object(1).X_WO.translation().head<2>().norm(), 2e-3);
 }
 
 /** A rod hanging below a mount that is suddenly turned by a. It swings about where it comes to
@@ -234,6 +238,25 @@ TEST(RigidBodies, TheSceneMayBePosedAnywhere) {
             1e-6);
   EXPECT_LT((here.result().force_M - there.result().force_M).norm(),
             1e-6 * here.result().force_M.norm());
+}
+
+// Held rows of friction and of free bodies in conjugate gradients, with factorisations of earlier
+// steps and in single precision.
+TEST(RigidBodies, AnyLinearSolverCarriesTheBoxTheSameWay) {
+  SimulatorParameters parameters = WithGravity(A20(0.01));
+  parameters.linear_solver.precision = Precision::kDouble;
+  Hanging exact(0.1, 0.5, parameters);
+  parameters.linear_solver.precision = Precision::kSingle;
+  Hanging single(0.1, 0.5, parameters);
+  parameters.linear_solver.method = LinearSolverMethod::kConjugateGradient;
+  Hanging old(0.1, 0.5, parameters);
+  for (GripWorld* world : {static_cast<GripWorld*>(&single), static_cast<GripWorld*>(&old)}) {
+    EXPECT_EQ(world->undone_steps, 0);
+    EXPECT_LT((world->result().x_W - exact.result().x_W).cwiseAbs().maxCoeff(), 1e-6);
+    EXPECT_LT((world->result().force_M - exact.result().force_M).norm(),
+              1e-3 * exact.result().force_M.norm());
+  }
+  EXPECT_GT(old.linear_iterations, 0);
 }
 
 TEST(RigidBodies, TeleportedBoxComesToRestAndTheNodeIsTold) {

@@ -45,6 +45,76 @@ TEST(SolverPaths, ThePapersGaussSeidelIsNear) {
   ExpectSame(ForcesOf(parameters), active_set, 0.01);
 }
 
+/// Largest differences between two runs of a whole cycle, step by step.
+struct Difference {
+  double position{0.0};    // m
+  double force{0.0};       // relative to the largest
+  bool same_status{true};  // at every step
+};
+
+Difference WholeCycleDifference(const SimulatorParameters& parameters,
+                                const SimulatorParameters& expected, const std::string& bell) {
+  GripCycle cycle(LoadBell(bell), parameters);
+  GripCycle reference(LoadBell(bell), expected);
+  double largest_force = 0.0;
+  Difference difference;
+  const auto drive = [&](double height, double speed, double setpoint, double then) {
+    const int num_steps = static_cast<int>(
+        std::lround(std::abs(height - cycle.height()) / (speed * parameters.time_step) +
+                    then / parameters.time_step));
+    for (int i = 0; i < num_steps; ++i) {
+      for (GripCycle* const each : {&cycle, &reference}) {
+        const double way = height - each->height();
+        const double stride = std::min(std::abs(way), speed * parameters.time_step);
+        if (way == 0.0) {
+          each->Step(setpoint);
+        } else {
+          each->Drive(each->height() + std::copysign(stride, way), 1.0, setpoint);
+        }
+      }
+      const StepResult& a = cycle.result();
+      const StepResult& b = reference.result();
+      largest_force = std::max(largest_force, b.force_M.norm());
+      difference.position =
+          std::max(difference.position, (a.x_W - b.x_W).colwise().norm().maxCoeff());
+      difference.force = std::max(difference.force, (a.force_M - b.force_M).norm());
+      difference.same_status = difference.same_status && a.status == b.status;
+    }
+  };
+  drive(kCupLength - 0.001, 0.01, 0.0, 0.1);
+  drive(kCupLength - 0.001, 0.01, -6000.0, 0.2);
+  drive(kCupLength + 0.012, 0.01, -6000.0, 0.0);
+  EXPECT_EQ(reference.seal_flips, 2);  // sealed and lost
+  EXPECT_EQ(cycle.undone_steps, 0);
+  difference.force /= largest_force;
+  return difference;
+}
+
+// What single precision and what is left of the residual may do to a cycle.
+TEST(SolverPaths, SinglePrecisionStaysWithDoubleThroughAWholeCycle) {
+  using Method = LinearSolverMethod;
+  for (const char* const bell : {"linear_700", "quadratic_700"}) {
+    for (const double young_modulus : {338000.0, 593000.0}) {
+      SimulatorParameters expected = A20(0.01);
+      expected.material.young_modulus = young_modulus;
+      expected.linear_solver.precision = Precision::kDouble;
+      for (const Method method :
+           {Method::kDirect, Method::kConjugateGradient, Method::kAsynchronous}) {
+        if (young_modulus != 338000.0 && method != Method::kDirect) continue;
+        SCOPED_TRACE(testing::Message() << bell << ", " << young_modulus << " Pa, method "
+                                        << static_cast<int>(method));
+        SimulatorParameters parameters = expected;
+        parameters.linear_solver.method = method;
+        parameters.linear_solver.precision = Precision::kSingle;
+        const Difference difference = WholeCycleDifference(parameters, expected, bell);
+        EXPECT_LT(difference.position, 1e-6);
+        EXPECT_LT(difference.force, 1e-4);
+        EXPECT_TRUE(difference.same_status);
+      }
+    }
+  }
+}
+
 // Factorisations of every age up to 15 steps, deterministically.
 TEST(SolverPaths, ConjugateGradientsWithAnOldFactorisationAgreeWithTheDirectSolver) {
   for (const char* const bell : {"linear_700", "quadratic_700"}) {
@@ -65,6 +135,21 @@ TEST(SolverPaths, AsynchronousFactorisationsAgreeWithTheDirectSolver) {
     const std::vector<double> direct = ForcesOf(parameters, bell);
     parameters.linear_solver.method = LinearSolverMethod::kAsynchronous;
     ExpectSame(ForcesOf(parameters, bell), direct, 1e-5);
+  }
+}
+
+// Where nothing loads the cup |b| goes to zero; iterations do not run after what is left of it.
+TEST(SolverPaths, ACupAtRestInTheAirNeedsNoIterations) {
+  for (const auto method :
+       {LinearSolverMethod::kConjugateGradient, LinearSolverMethod::kAsynchronous}) {
+    SimulatorParameters parameters = A20(0.01);
+    parameters.linear_solver.method = method;
+    GripCycle cycle(LoadBell("linear_700"), parameters);
+    cycle.Drive(kCupLength + 0.005, 0.05, 0.0, 1.0);
+    for (int i = 0; i < 20; ++i) {
+      cycle.Step(0.0);
+      EXPECT_EQ(cycle.result().linear_iterations, 0);
+    }
   }
 }
 

@@ -47,6 +47,7 @@ WRONG = {
     'contact.relaxation': [0.0, 2.0],
     'contact.alarm_distance': [0.0],
     'linear_solver.method': ['magic'],
+    'linear_solver.precision': ['half'],
     'linear_solver.tolerance': [0.0],
     'linear_solver.max_iterations': [0],
     'linear_solver.refactor_interval': [0],

@@ -12,6 +12,7 @@
 #include "vacuum_gripper_sim/core/implicit_euler.h"
 #include "vacuum_gripper_sim/core/rigid_world.h"
 #include "vacuum_gripper_sim/core/sparse_cholesky.h"
+#include "vacuum_gripper_sim/core/system_vector.h"
 
 namespace vacuum_gripper_sim {
 
@@ -45,23 +46,25 @@ class ConstraintOperator {
   static Eigen::Matrix3d Axes(const Contact& contact);
   /// [m/N]
   const Eigen::MatrixXd& W() const { return plain_ ? cup_.W() : W_; }
-  /// If all contacts are single normals of nodes on what does not move: W of them; else null.
-  const DelassusOperator* plain() const { return plain_ ? &cup_ : nullptr; }
+  /// Are all contacts single normals of nodes on what does not move?
+  bool plain() const { return plain_; }
 
   /// M^-1 b of the bodies. @param b 6 #bodies. [N s], [N m s]
   Eigen::VectorXd BodyVelocities(const Eigen::VectorXd& b) const;
-  /// What an impulse does to gaps and slips. [m] @param y L^-1 P b of the cup's.
-  /// @param dV M^-1 b of the bodies'.
-  Eigen::VectorXd GapChanges(const Eigen::VectorXd& y, const Eigen::VectorXd& dV) const;
-  /// Adds what the forces do. @param lambda [N] @param[in,out] y, dV
-  void AddForces(const Eigen::VectorXd& lambda, Eigen::VectorXd* y, Eigen::VectorXd* dV) const;
-  /// Adds the impulses. @param[in,out] b Of the cup, 3 #free. @param[in,out] b_bodies
-  void AddImpulses(const Eigen::VectorXd& lambda, Eigen::VectorXd* b,
-                   Eigen::VectorXd* b_bodies) const;
+  /// M dV of the bodies. @param dV 6 #bodies.
+  Eigen::VectorXd BodyImpulses(const Eigen::VectorXd& dV) const;
+  /// What an impulse does to gaps and slips. [m] @param y L^-1 P b of the cup's, and M^-1 b of the
+  /// bodies'.
+  Eigen::VectorXd GapChanges(const SystemVector& y) const;
+  /// Adds what the forces do. @param lambda [N] @param[in,out] y As in GapChanges().
+  void AddForces(const Eigen::VectorXd& lambda, SystemVector* y) const;
+  /// Adds their impulses. @param lambda [N] @param[in,out] b
+  void AddImpulses(const Eigen::VectorXd& lambda, SystemVector* b) const;
 
  private:
   struct Body {
     Eigen::Vector3d c_W;
+    Eigen::Matrix<double, 6, 6> M;
     Eigen::Matrix<double, 6, 6> M_inverse;
   };
   bool MayBePlain(const Contact& contact) const;

@@ -23,16 +23,18 @@ namespace vacuum_gripper_sim {
 struct Contact {
   std::uint64_t key{0};  ///< The same for the same two things in the next step.
   int num_nodes{0};
-  std::array<int, 4> nodes{};       ///< Of the cup; the first `num_nodes` count.
-  std::array<double, 4> weights{};  ///< w. [-]
-  int object{RigidWorld::kNone};    ///< The normal points out of it.
-  int other{RigidWorld::kNone};     ///< What touches it in the cup's place.
-  Eigen::Vector3d p_W;              ///< Where, when the step begins. [m]
-  Eigen::Vector3d normal;           ///< World axes.
-  Eigen::Vector3d across;           ///< Some direction across it, the same all step.
-  double gap{0.0};                  ///< < 0: penetrating. [m]
-  Eigen::Vector3d slip_W;           ///< Of the one over the other since the step began. [m]
-  double friction{0.0};             ///< Coulomb's mu. [-]
+  std::array<int, 4> nodes{};                       ///< Of the cup; the first `num_nodes` count.
+  std::array<double, 4> weights{};                  ///< w. [-]
+  int object{RigidWorld::kNone};                    ///< The normal points out of it.
+  int other{RigidWorld::kNone};                     ///< What touches it in the cup's place.
+  Eigen::Vector3d p_W{Eigen::Vector3d::Zero()};     ///< Where, when the step begins. [m]
+  Eigen::Vector3d normal{Eigen::Vector3d::Zero()};  ///< World axes.
+  Eigen::Vector3d across{
+      Eigen::Vector3d::Zero()};  ///< Some direction across it, the same all step.
+  double gap{0.0};               ///< < 0: penetrating. [m]
+  Eigen::Vector3d slip_W{
+      Eigen::Vector3d::Zero()};  ///< Of the one over the other since the step began. [m]
+  double friction{0.0};          ///< Coulomb's mu. [-]
 };
 
 /// The end of a step as a trial has it.

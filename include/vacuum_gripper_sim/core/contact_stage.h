@@ -12,21 +12,16 @@
 #include "vacuum_gripper_sim/core/linear_solver.h"
 #include "vacuum_gripper_sim/core/mcp_solver.h"
 #include "vacuum_gripper_sim/core/parameters.h"
+#include "vacuum_gripper_sim/core/pressure_on_objects.h"
 #include "vacuum_gripper_sim/core/rigid_world.h"
 #include "vacuum_gripper_sim/core/step_result.h"
+#include "vacuum_gripper_sim/core/system_vector.h"
 
 namespace vacuum_gripper_sim {
 
-/// What the cup does to an object, as force and torque about the object's origin, world axes.
-struct ObjectLoad {
-  Eigen::Vector3d force_W{Eigen::Vector3d::Zero()};   ///< [N]
-  Eigen::Vector3d torque_W{Eigen::Vector3d::Zero()};  ///< [N m]
-};
-
 /// End of a step under one pressure load.
 struct ContactSolution {
-  Eigen::VectorXd dv_f;             ///< Velocity change of the free nodes, 3 #free. [m/s]
-  Eigen::VectorXd dV;               ///< Of the free bodies, 6 #bodies; see RigidWorld.
+  SystemVector dv;                  ///< Velocity change of free nodes and bodies. [m/s], [rad/s]
   Eigen::Matrix3Xd x_W;             ///< Positions of all nodes, 3 by #nodes. [m]
   Eigen::VectorXd lambda;           ///< Normal force on each node, #nodes. [N]
   std::vector<double> distance;     ///< Of each node to the nearest rigid surface, #nodes; +inf for
@@ -97,27 +92,19 @@ class ContactStage {
     Eigen::Vector3d applied{Eigen::Vector3d::Zero()};  ///< The force that led to where the gap was
                                                        ///< measured. [N]
   };
-  /// The impulses that drive a step. [N s], [N m s]
-  struct Impulse {
-    Eigen::VectorXd cup;     // 3 #free
-    Eigen::VectorXd bodies;  // 6 #bodies
-  };
-
   void FindCandidates();
   void StartAfresh();
-  TrialEnd EndOf(const Eigen::VectorXd& dv_f, const Eigen::VectorXd& dV);
+  TrialEnd EndOf(const SystemVector& dv);
   void AddCandidates(const std::vector<Contact>& contacts);
   template <typename Measure>
   void MeasureCandidates(const Measure& measure);
   void UpdateOperator(StepTimings* timings);
-  void SolveCandidates(Eigen::VectorXd* y, Eigen::VectorXd* dV, ContactSolution* solution,
-                       StepTimings* timings);
-  bool SolveWithFactorization(const Impulse& impulse, ContactSolution* solution,
+  void SolveCandidates(SystemVector* y, ContactSolution* solution, StepTimings* timings);
+  bool SolveWithFactorization(const SystemVector& impulse, ContactSolution* solution,
                               StepTimings* timings);
-  bool Refine(const Impulse& impulse, ContactSolution* solution);
+  bool Refine(const SystemVector& impulse, ContactSolution* solution);
   Eigen::VectorXd Stacked(Eigen::Vector3d Candidate::*values) const;
   void SetForces(const Eigen::VectorXd& lambda);
-  void LoadObjects(const Eigen::Matrix3Xd& load);
   void MeasureEnd(const TrialEnd& end, ContactSolution* solution);
   void Report(ContactSolution* solution) const;
 

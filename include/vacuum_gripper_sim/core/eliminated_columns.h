@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <variant>
 #include <vector>
 
 namespace vacuum_gripper_sim {
@@ -40,19 +41,22 @@ class EliminatedColumns {
     Eigen::Index column{0}, num_columns{0};
     std::size_t offset{0};
   };
-  using ConstView = Eigen::Map<const Eigen::MatrixXd>;
-  using View = Eigen::Map<Eigen::MatrixXd>;
-  ConstView Values(const Block& block) const {
-    return {values_.data() + block.offset, block.num_columns, block.num_rows};
+  template <typename Scalar>
+  using Matrix = Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>;
+  template <typename Scalar>
+  static Eigen::Map<const Matrix<Scalar>> Values(const std::vector<Scalar>& values,
+                                                 const Block& block) {
+    return {values.data() + block.offset, block.num_columns, block.num_rows};
   }
-  View Values(const Block& block) {
-    return {values_.data() + block.offset, block.num_columns, block.num_rows};
+  template <typename Scalar>
+  static Eigen::Map<Matrix<Scalar>> Values(std::vector<Scalar>* values, const Block& block) {
+    return {values->data() + block.offset, block.num_columns, block.num_rows};
   }
   Eigen::MatrixXd InGivenOrder(const Eigen::MatrixXd& sorted, const EliminatedColumns& other) const;
 
   std::vector<int> order_;     // the sorted columns' numbers in B
   std::vector<Block> blocks_;  // rows ascending
-  std::vector<double> values_;
+  std::variant<std::vector<double>, std::vector<float>> values_;  // as the factor's
 };
 
 }  // namespace vacuum_gripper_sim

@@ -2,13 +2,14 @@
 
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
-#include <array>
 #include <cstddef>
-#include <cstdint>
+#include <variant>
 #include <vector>
 
 #include "vacuum_gripper_sim/core/elastic_body.h"
 #include "vacuum_gripper_sim/core/parameters.h"
+#include "vacuum_gripper_sim/core/point_pack.h"
+#include "vacuum_gripper_sim/core/step_matrix.h"
 
 namespace vacuum_gripper_sim {
 
@@ -22,13 +23,14 @@ namespace vacuum_gripper_sim {
      A_ff dv_f = b_f - A_fc dv_c
      r_c = (A_cf dv_f + A_cc dv_c - b_c) / h    force that holds the clamped nodes        [N]
 
- A carries kg, b kg m/s. The sparsity is found once; Linearize() only refills the values. */
+ A carries kg, b kg m/s. Products with A go element by element; it is assembled when somebody asks
+ for it, as to factorise it. */
 class ImplicitEuler {
  public:
   /// @param body Must outlive this. @param clamped_nodes Sorted, unique.
   ImplicitEuler(const ElasticBody& body, const std::vector<int>& clamped_nodes);
 
-  /** Refills A and b.
+  /** Finds b and what A is made of.
    @param x,v Positions [m] and velocities [m/s], 3 by #nodes.
    @param h Time step. [s]
    @param gravity World frame. [m/s^2] */
@@ -41,8 +43,16 @@ class ImplicitEuler {
   /// First of a node's three rows in the free system, or -1 if it is clamped.
   int FreeRow(int node) const { return free_row_[static_cast<std::size_t>(node)]; }
 
-  /// A_ff, lower triangle. [kg]
-  const Eigen::SparseMatrix<double>& A_ff() const { return A_ff_; }
+  /// What A_ff is made of, and how; for another thread.
+  const Linearization& linearization() const { return linearization_; }
+  const StepMatrix& matrix() const { return matrix_; }
+  /// A_ff, lower triangle; assembled if that has not been done since Linearize(). [kg]
+  const Eigen::SparseMatrix<double>& A_ff();
+  /// Of the step's impulses, however little the body moves: norm of the free nodes' masses times h
+  /// and standard gravity. [kg m/s]
+  double ImpulseScale() const;
+  /// A_ff dv_f. @param dv_f 3 #free. [m/s] @returns 3 #free. [kg m/s]
+  Eigen::VectorXd Multiply(const Eigen::VectorXd& dv_f) const;
   /// b_f - A_fc dv_c. @param dv_c 3 by #clamped. [m/s] @returns 3 #free. [kg m/s]
   Eigen::VectorXd FreeRightHandSide(const Eigen::Matrix3Xd& dv_c) const;
   /// r_c. @param dv_f 3 #free, @param dv_c 3 by #clamped. [m/s] @returns 3 by #clamped. [N]
@@ -55,34 +65,28 @@ class ImplicitEuler {
   Eigen::Matrix3Xd Scatter(const Eigen::VectorXd& values_f, const Eigen::Matrix3Xd& values_c) const;
 
  private:
-  /// Where one 3 by 3 block of an element's matrix goes: the offsets of its three columns.
-  struct BlockTarget {
-    enum class Matrix : std::uint8_t { kNone, kFreeLower, kFreeDiagonal, kClampedFree, kClamped };
-    Matrix matrix{Matrix::kNone};
-    std::array<int, 3> offsets{};
-  };
-
-  void FindSparsity();
-  void MapBlocks();
-  template <typename Element, typename Law>
-  void AddElements(const std::vector<Element>& elements, const Law& law, const Eigen::Matrix3Xd& x,
-                   const Eigen::Matrix3Xd& v, double h, double beta);
   template <typename Element>
-  void AddBlocks(const typename Element::Stiffness& K_e, double factor, const BlockTarget* targets);
-  void AddMasses(const Eigen::Matrix3Xd& v, double h, double alpha, const Eigen::Vector3d& gravity);
+  using Packs = std::vector<PointPack<Element>>;
+
+  /// A dv, by the given packs and without masses. @param[in,out] product 3 by #nodes.
+  void AddStiffness(const Eigen::Matrix3Xd& dv, const std::vector<std::size_t>& packs,
+                    Eigen::Matrix3Xd* product) const;
 
   const ElasticBody* body_;
+  std::variant<Packs<LinearTetrahedron>, Packs<QuadraticTetrahedron>> packs_;
   std::vector<int> free_nodes_;
   std::vector<int> clamped_nodes_;
-  std::vector<int> free_row_;     // by node; -1: clamped
-  std::vector<int> clamped_row_;  // by node; -1: free
+  std::vector<int> free_row_;               // by node; -1: clamped
+  std::vector<std::size_t> all_packs_;      // 0, 1, ...
+  std::vector<std::size_t> clamped_packs_;  // with a clamped node
+  StepMatrix matrix_;
+
+  // Of the last Linearize().
+  double h_{0.0};
+  Linearization linearization_;
+  Eigen::Matrix3Xd b_;  // all nodes
+  bool assembled_{false};
   Eigen::SparseMatrix<double> A_ff_;
-  Eigen::SparseMatrix<double> A_cf_;  // rows clamped, columns free
-  Eigen::MatrixXd A_cc_;
-  Eigen::Matrix3Xd b_;                // all nodes
-  double h_{0.0};                     // of the last Linearize()
-  std::vector<BlockTarget> targets_;  // element by element, blocks (a, b) row-major
-  std::vector<int> mass_offsets_;     // of the diagonal of A_ff, a free row each
 };
 
 }  // namespace vacuum_gripper_sim

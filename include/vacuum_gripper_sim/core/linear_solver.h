@@ -1,13 +1,13 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <Eigen/SparseCore>
 #include <cstdint>
 #include <memory>
 #include <vector>
 
 #include "vacuum_gripper_sim/core/background_factorization.h"
-#include "vacuum_gripper_sim/core/delassus_operator.h"
+#include "vacuum_gripper_sim/core/constraint_operator.h"
+#include "vacuum_gripper_sim/core/implicit_euler.h"
 #include "vacuum_gripper_sim/core/parameters.h"
 #include "vacuum_gripper_sim/core/sparse_cholesky.h"
 
@@ -21,43 +21,50 @@ namespace vacuum_gripper_sim {
  not on the factorisation's age. kConjugateGradient renews it every `refactor_interval` steps, and
  before that when a step's iterations cost more than the average step since, the factorisation's own
  cost shared among them. kAsynchronous has a second thread factorise one A after the other and takes
- over by the same rule; how old its factorisation is depends on the threads' speed. */
+ over by the same rules, as long as there are iterations to spare; how old its factorisation is
+ depends on the threads' speed. */
 class LinearSolver {
  public:
-  /// @param A Gives the sparsity of all matrices to come: lower triangle, compressed.
-  LinearSolver(const LinearSolverParameters& parameters, const Eigen::SparseMatrix<double>& A);
+  /// @param system Its A_ff is the matrix; must outlive this.
+  LinearSolver(const LinearSolverParameters& parameters, ImplicitEuler* system);
 
-  /** Takes the step's matrix. @param A Lower triangle; must outlive the solves.
+  /** Takes the system's A as it is now.
    @returns false if A is not positive definite. @throws what the second thread did. */
-  bool Compute(const Eigen::SparseMatrix<double>& A);
-  /// Factorises the A of the last Compute(). @returns false if it is not positive definite.
+  bool Compute();
+  /// Makes the factorisation that of the last Compute()'s A, or more precise if it is already.
+  /// @returns false if A is not positive definite.
   bool Renew();
 
   /// The newest factorisation: of the last A or of an earlier one.
   const SparseCholesky& factorization() const { return factorization_; }
   /// Tells one factorisation from the next.
   int generation() const { return generation_; }
-  /// Does factorization() belong to the A of the last Compute()?
-  bool current() const { return factorized_step_ == step_; }
+  /// Does factorization() belong to the A of the last Compute(), in full precision?
+  bool current() const {
+    return factorized_step_ == step_ && factorization_.precision() == Precision::kDouble;
+  }
 
   /// b - A dv. @param b [N s] @param dv [m/s]
   Eigen::VectorXd Residual(const Eigen::VectorXd& b, const Eigen::VectorXd& dv) const;
 
-  /** Solves A dv = b + h H^T lambda where `held` contacts keep their gaps and only they change
-   their forces: conjugate gradients among the motions that move no held gap, preconditioned by the
-   factorisation A_0 under the same constraint ([Gould 2001], Algorithms 2.1 and 6.2),
+  /** Solves A dv = b + h H^T lambda where `held` rows keep their gaps and slips and only they
+   change their forces: conjugate gradients among the motions that move no held row, preconditioned
+   by the factorisation A_0 under the same constraint ([Gould 2001], Algorithms 2.1 and 6.2),
 
        ( A_0  -h H^T ) (z )   (r)
        ( h H     0   ) (mu) = (0),   r := r + h H^T mu.
 
-   @param delassus Of factorization(). @param held Indices of its contacts.
-   @param[in,out] dv Motion. [m/s] @param[in,out] lambda A force for every contact. [N]
-   @returns false if |r| <= tolerance |b| is out of reach of what is left of the step's iterations.
+   Free bodies take part with M, and J beside H.
+   @param b Impulses of the cup and of the bodies. [N s] @param constraints Of factorization().
+   @param held Indices of its rows. @param[in,out] dv Motion. [m/s]
+   @param[in,out] lambda A force for every row. [N]
+   @returns false if |r| <= tolerance max(|b|, ImplicitEuler::ImpulseScale()) is out of reach of
+   what is left of the step's iterations.
 
    [Gould 2001] N. I. M. Gould, M. E. Hribar, J. Nocedal, "On the solution of equality constrained
    quadratic programming problems arising in optimization", SIAM J. Sci. Comput. 23(4). */
-  bool Refine(const Eigen::VectorXd& b, const DelassusOperator& delassus,
-              const std::vector<Eigen::Index>& held, Eigen::VectorXd* dv, Eigen::VectorXd* lambda);
+  bool Refine(const SystemVector& b, const ConstraintOperator& constraints,
+              const std::vector<Eigen::Index>& held, SystemVector* dv, Eigen::VectorXd* lambda);
 
   int iterations() const { return iterations_; }          ///< CG, since Compute().
   int factorizations() const { return factorizations_; }  ///< On this thread, since Compute().
@@ -65,10 +72,11 @@ class LinearSolver {
  private:
   bool Hopeless(int iterations, double start, double now, double bound) const;
   bool WornOut(int cost) const;
+  bool FactorizeWith(Precision precision);
   bool ExchangeWithBackground(bool worth_taking);
 
   LinearSolverParameters parameters_;
-  const Eigen::SparseMatrix<double>* A_{nullptr};
+  ImplicitEuler* system_;
   SparseCholesky factorization_;
   bool usable_{false};  // does factorization_ hold a factor?
   int generation_{0};
@@ -77,6 +85,7 @@ class LinearSolver {
   std::int64_t background_step_{0};   // whose A the second thread has
   std::int64_t iterations_since_{0};  // factorized_step_, without the current step
   int iterations_{0};
+  int iterations_before_{0};  // of the step, with factorisations given up since
   int factorizations_{0};
   std::unique_ptr<BackgroundFactorization> background_;  // kAsynchronous only
 };

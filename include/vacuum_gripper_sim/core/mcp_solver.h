@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Cholesky>
 #include <Eigen/Core>
 
 #include "vacuum_gripper_sim/core/parameters.h"
@@ -16,6 +17,10 @@ struct McpStatistics {
 /// Two contacts in one direction at one node make W singular. A diagonal larger by this share
 /// splits their force evenly and moves no gap by more than this share of itself.
 inline constexpr double kContactRegularization = 1e-12;
+
+/// Cholesky factor of some rows and columns of W, regularised so much, or more where rounding wants
+/// it. @param W_lower Lower triangle. @returns a factor whose info() tells if it is one.
+Eigen::LLT<Eigen::MatrixXd> FactorOfContacts(const Eigen::MatrixXd& W_lower);
 
 /** Solves the contact part of the mixed complementarity problem of [Bernardin, Sec. III-C], the
  pressure being known and part of delta:

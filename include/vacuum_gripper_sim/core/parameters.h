@@ -24,13 +24,20 @@ struct RayleighDamping {
 
 enum class LinearSolverMethod { kDirect, kConjugateGradient, kAsynchronous };
 
+/// Of the numbers of a factorisation.
+enum class Precision { kDouble, kSingle };
+
 /// How the sparse systems with A are solved.
 struct LinearSolverParameters {
   LinearSolverMethod method{LinearSolverMethod::kDirect};
-  double tolerance{1e-6};     ///< CG: bound on |r| / |b|. [-] > 0
+  Precision precision{Precision::kSingle};  ///< Of factorisations. kSingle: twice as fast and half
+                                            ///< the memory; iterations make up for it.
+  double tolerance{1e-6};                   ///< CG: bound on |r| / |b|, or over what the cup's
+                                            ///< weight makes of |b| if that is more. [-] > 0
   int max_iterations{10};     ///< CG: a step that needs more factorises its A after all; about what
                               ///< that costs, in iterations. >= 1
-  int refactor_interval{10};  ///< kConjugateGradient: steps that share a factorisation. >= 1
+  int refactor_interval{10};  ///< Steps that share a factorisation; kAsynchronous: if they iterate.
+                              ///< >= 1
 };
 
 enum class ContactSolverMethod { kGaussSeidel, kActiveSet };

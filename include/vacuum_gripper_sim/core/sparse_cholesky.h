@@ -5,9 +5,11 @@
 #include <array>
 #include <cstddef>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "vacuum_gripper_sim/core/eliminated_columns.h"
+#include "vacuum_gripper_sim/core/parameters.h"
 
 namespace vacuum_gripper_sim {
 
@@ -17,6 +19,9 @@ namespace vacuum_gripper_sim {
  The elimination works on dense fronts, so that the arithmetic runs in blocked kernels: on the
  quadratic cup several times faster than a column-by-column factorisation. Ordering (minimum
  degree on the graph of nodes) and symbolic factorisation are done once by Analyze().
+
+ The factor's numbers may be in single precision, for twice the speed; what goes in and comes out is
+ in double precision all the same, with an error that |L| |L^T| and single rounding make.
 
  [Duff 1983] I. S. Duff, J. K. Reid, "The multifrontal solution of indefinite sparse symmetric
  linear equations", ACM TOMS 9(3). [Liu 1992] J. W. H. Liu, "The multifrontal method for sparse
@@ -29,15 +34,21 @@ class SparseCholesky {
   bool analyzed() const { return !supernodes_.empty(); }
 
   /// Factorises. @param A Same sparsity as that of Analyze().
-  /// @returns false if A is not positive definite; the factor is unusable then.
-  bool Factorize(const Eigen::SparseMatrix<double>& A);
+  /// @returns false if A is not positive definite, to the given precision; the factor is unusable
+  /// then.
+  bool Factorize(const Eigen::SparseMatrix<double>& A, Precision precision = Precision::kDouble);
+
+  /// Of the last factorisation.
+  Precision precision() const {
+    return numbers_.index() == 0 ? Precision::kDouble : Precision::kSingle;
+  }
 
   /// A^-1 b.
   Eigen::VectorXd Solve(const Eigen::VectorXd& b) const { return BackSubstitute(Eliminate(b)); }
   /// L^-1 P b, the first half of a solve; in elimination order.
   Eigen::VectorXd Eliminate(const Eigen::VectorXd& b) const;
   /// P^T L^-T y, the second half.
-  Eigen::VectorXd BackSubstitute(Eigen::VectorXd y) const;
+  Eigen::VectorXd BackSubstitute(const Eigen::VectorXd& y) const;
 
   /// L^-1 P B front by front, on the columns that reach it.
   EliminatedColumns EliminateColumns(const std::vector<NodeColumn>& B) const;
@@ -53,12 +64,26 @@ class SparseCholesky {
     std::size_t num_in_own{0};   ///< How many of these are the parent's own nodes: the first.
     std::vector<int> children;
     int depth{0};                  ///< Supernodes above.
-    std::size_t update_offset{0};  ///< Of the update in updates_[depth % 2].
-    std::size_t offset{0};  ///< Of the front's panel in factor_: 3 #rows by 3 width, column-major.
+    std::size_t update_offset{0};  ///< Of the update in Numbers::updates[depth % 2].
+    std::size_t offset{
+        0};  ///< Of the front's panel in Numbers::factor: 3 #rows by 3 width, column-major.
     std::size_t entries_begin{0}, entries_end{0};  ///< Of entries_: A's values that enter here.
 
     int num_rows() const { return static_cast<int>(rows.size()); }
     int num_below() const { return num_rows() - width; }
+  };
+
+  /// Values of the factor, and updates that wait for their parent, on two stacks: in postorder a
+  /// front finds its children on top of one and leaves its own update on the other.
+  template <typename Scalar>
+  struct Numbers {
+    std::vector<Scalar> factor;
+    std::array<std::vector<Scalar>, 2> updates;
+
+    /// What a front leaves to its parent, 3 #below square.
+    Scalar* UpdateOf(const Supernode& front) {
+      return updates[static_cast<std::size_t>(front.depth % 2)].data() + front.update_offset;
+    }
   };
 
   void Order(const std::vector<std::vector<int>>& graph);
@@ -67,17 +92,18 @@ class SparseCholesky {
   void LinkSupernodes();
   void PlaceUpdates();
   void MapEntries(const Eigen::SparseMatrix<double>& A);
+  template <typename Scalar>
   EliminatedColumns LayOutColumns(const std::vector<NodeColumn>& B,
                                   std::vector<int>* block_of) const;
-  void AddChild(const Supernode& child, std::size_t begin, std::size_t end, double* target,
-                Eigen::Index stride) const;
-  /// What a front leaves to its parent, 3 #below square.
-  const double* UpdateOf(const Supernode& front) const {
-    return updates_[static_cast<std::size_t>(front.depth % 2)].data() + front.update_offset;
-  }
-  double* UpdateOf(const Supernode& front) {
-    return updates_[static_cast<std::size_t>(front.depth % 2)].data() + front.update_offset;
-  }
+  template <typename Scalar>
+  bool Factorize(const Eigen::SparseMatrix<double>& A, Numbers<Scalar>* numbers) const;
+  template <typename Scalar>
+  Eigen::VectorXd Eliminate(const Numbers<Scalar>& numbers, const Eigen::VectorXd& b) const;
+  template <typename Scalar>
+  Eigen::VectorXd BackSubstitute(const Numbers<Scalar>& numbers, const Eigen::VectorXd& y) const;
+  template <typename Scalar>
+  EliminatedColumns EliminateColumns(const Numbers<Scalar>& numbers,
+                                     const std::vector<NodeColumn>& B) const;
 
   Eigen::Index size_{0};           // scalars
   Eigen::Index largest_front_{0};  // rows, scalars
@@ -87,10 +113,9 @@ class SparseCholesky {
   std::vector<Supernode> supernodes_;
   std::vector<int> supernode_of_;             // by position
   std::vector<std::pair<int, int>> entries_;  // (value of A, place in the panel), by supernode
-  std::vector<double> factor_;
-  /// Updates that wait for their parent, on two stacks: in postorder a front finds its children on
-  /// top of one and leaves its own update on the other.
-  std::array<std::vector<double>, 2> updates_;
+  std::size_t factor_size_{0};
+  std::array<std::size_t, 2> update_sizes_{};
+  std::variant<Numbers<double>, Numbers<float>> numbers_;
 };
 
 }  // namespace vacuum_gripper_sim

@@ -44,6 +44,10 @@ struct Tetrahedron {
 using LinearTetrahedron = Tetrahedron<4, 1>;
 using QuadraticTetrahedron = Tetrahedron<10, 4>;
 
+/// A law's tangents at an element's integration points.
+template <typename Element, typename Law>
+using PointTangents = std::array<typename Law::Tangent, Element::kPoints>;
+
 /** Internal force and stiffness of one element whose material has the given law (Corotational- or
  NeoHookeanLaw): with the stress P and the tangent of the law at every integration point, weighted,
 
@@ -59,5 +63,11 @@ void ElementForces(const Tetrahedron<N, Q>& element, const Law& law,
                    const typename Tetrahedron<N, Q>::NodalVectors& x,
                    typename Tetrahedron<N, Q>::NodalVectors* f,
                    typename Tetrahedron<N, Q>::Stiffness* K);
+
+/// K alone, of given tangents.
+template <int N, int Q, typename Law>
+void ElementStiffness(const Tetrahedron<N, Q>& element, const Law& law,
+                      const PointTangents<Tetrahedron<N, Q>, Law>& tangents,
+                      typename Tetrahedron<N, Q>::Stiffness* K);
 
 }  // namespace vacuum_gripper_sim
