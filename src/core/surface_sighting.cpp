@@ -16,10 +16,8 @@ SurfaceDistance SurfaceSighting::BeginStep(const Shape& shape, const Eigen::Vect
   const SurfaceDistance seen = Look(shape, p_S, reach);
   const auto* mesh = std::get_if<Mesh>(&shape);
   if (mesh == nullptr) return seen;
-  if (p_S_ != p_S || seen.distance >= reach) {
-    side_ = 0;
-    return seen;
-  }
+  if (p_S_ != p_S) return seen;  // no nearer to the sheet than when it was seen: on the same side
+  if (seen.distance >= reach) side_ = 0;
   if (!Settle(**mesh)) return seen;
   const MeshPoint point = (*mesh)->SeenFrom(side_, point_);
   return seen_ = {point.distance, point.normal};

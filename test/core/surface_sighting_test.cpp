@@ -97,7 +97,21 @@ TEST(SurfaceSighting, OverTheBorderAndBackOnTheSameSide) {
   }
 }
 
-TEST(SurfaceSighting, FarAwayItForgetsItsSide) {
+// Far from the sheet, too, trials are measured from the side where the step began.
+TEST(SurfaceSighting, FarPointsHaveASide) {
+  const Shape sheet(Share(MakeSheet(4, 0.2)));
+  for (const double side : {1.0, -1.0}) {
+    SurfaceSighting sighting;
+    for (const double height : {0.05, 0.049, 0.02, 0.0105}) {
+      EXPECT_LE(sighting.BeginStep(sheet, {0.01, 0.0, side * height}, 0.01).distance,
+                height + 1e-15);
+      EXPECT_NEAR(sighting.Look(sheet, {0.01, 0.0, side * 0.001}).distance, 0.001, 1e-15);
+      EXPECT_NEAR(sighting.Look(sheet, {0.01, 0.0, -side * 0.02}).distance, -0.02, 1e-15);
+    }
+  }
+}
+
+TEST(SurfaceSighting, FarAwayItsSideIsWhereItIs) {
   const Shape sheet(Share(MakeSheet(4, 0.2)));
   const double reach = 0.01;
   SurfaceSighting sighting;

@@ -26,8 +26,8 @@ namespace vacuum_gripper_sim {
  - Past a border of the sheet the distance is that to the border, positive, and its direction that
    from the border. A point that goes round the border by more than .1 mm changes sides; one that is
    less below than that, as solvers leave it, is taken to be level with the sheet.
- - A point that BeginStep() finds farther away than `reach`, or that comes to a sheet that is no
- part of the one before, is forgotten: the side is decided anew where it is next seen.
+ - A point that BeginStep() finds farther away than `reach`, or at a sheet that is no part of the
+ one before, belongs to the side where it is then.
 
  Without BeginStep(), as in Distance(), a point belongs to the front: the side from which the
  triangles are counter-clockwise. */
