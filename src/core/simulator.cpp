@@ -215,8 +215,15 @@ bool Simulator::Implementation::Advance(const Command& command) {
   // 2) to 4) Classification, constraint directions, W and the mixed complementarity problem.
   SuctionSolution solution;
   stage_.Begin(surfaces_, state_.x_W, state_.v_W, b, dv_c, h);
-  if (!suction_.Solve(state_.x_W, command.pressure_setpoint, h, &stage_, &state_.grip, &solution,
-                      timings)) {
+  const auto distance = [this](const Eigen::Vector3d& p_W) {
+    double nearest = std::numeric_limits<double>::infinity();
+    for (const RigidSurface& surface : surfaces_) {
+      nearest = std::min(nearest, Distance(surface, p_W).distance);
+    }
+    return nearest;
+  };
+  if (!suction_.Solve(state_.x_W, command.pressure_setpoint, h, distance, &stage_, &state_.grip,
+                      &solution, timings)) {
     return fail(StepOutcome::kNonFinite, "A is not positive definite");
   }
   if (!solution.contact.x_W.allFinite()) {
@@ -290,7 +297,7 @@ void Simulator::Implementation::ReportCavity(const SuctionSolution& solution) {
 }
 
 void Simulator::Implementation::ReportOpening() {
-  result_.opening = FindSealOpening(cavity_, result_.gap, result_.bottleneck_gap,
+  result_.opening = FindSealOpening(cavity_, result_.gap, result_.classification,
                                     *parameters_.seal.open_gap, state_.x_W, result_.X_WM);
 }
 

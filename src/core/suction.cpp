@@ -9,7 +9,11 @@ namespace vacuum_gripper_sim {
 
 Suction::Suction(const CavitySurface& cavity, const SealParameters& seal,
                  const RegulatorParameters& regulator, double young_modulus)
-    : cavity_(&cavity), seal_(seal), regulator_(regulator), young_modulus_(young_modulus) {}
+    : cavity_(&cavity),
+      edge_ways_(cavity),
+      seal_(seal),
+      regulator_(regulator),
+      young_modulus_(young_modulus) {}
 
 Classification Suction::ClassifyEnd(const ContactSolution& contact,
                                     const std::vector<bool>& was_wet) const {
@@ -27,7 +31,8 @@ Classification Suction::ClassifyEnd(const ContactSolution& contact,
       phi[i] = contact.distance[static_cast<std::size_t>(node)];
     }
   }
-  return Classify(*cavity_, phi, *seal_.open_gap, was_wet);
+  return Classify(*cavity_, phi, *seal_.open_gap, was_wet,
+                  edge_ways_.Find(phi, *seal_.open_gap, contact.x_W, distance_));
 }
 
 bool Suction::SolveWith(const std::vector<bool>& wet, double pressure, ContactStage* stage,
@@ -92,9 +97,11 @@ bool Suction::TryToSeal(double pressure, ContactStage* stage, GripState* state,
   return true;
 }
 
-bool Suction::Solve(const Eigen::Matrix3Xd& x_W, double setpoint, double h, ContactStage* stage,
-                    GripState* state, SuctionSolution* solution, StepTimings* timings) {
+bool Suction::Solve(const Eigen::Matrix3Xd& x_W, double setpoint, double h,
+                    const DistanceToSurfaces& distance, ContactStage* stage, GripState* state,
+                    SuctionSolution* solution, StepTimings* timings) {
   num_nodes_ = x_W.cols();
+  distance_ = distance;
   area_vectors_ = PointAreaVectors(*cavity_, x_W);
 
   const double largest_change = regulator_.ramp_rate * h;

@@ -6,6 +6,7 @@
 #include "vacuum_gripper_sim/core/cavity_surface.h"
 #include "vacuum_gripper_sim/core/classifier.h"
 #include "vacuum_gripper_sim/core/contact_stage.h"
+#include "vacuum_gripper_sim/core/edge_ways.h"
 #include "vacuum_gripper_sim/core/parameters.h"
 #include "vacuum_gripper_sim/core/step_result.h"
 
@@ -53,11 +54,13 @@ class Suction {
   /** Solves the step's contacts and pressure.
    @param x_W Positions at the step's start: H_p is that of [Bernardin, Sec. III-C] there.
    @param setpoint Gauge pressure wanted. [Pa] @param h Time step. [s]
+   @param distance To the surfaces, for what lies between the points of the cavity.
    @param stage Begun with the step's free motion.
    @param[in,out] state @param[out] solution @param[in,out] timings
    @returns false if A is not positive definite. */
-  bool Solve(const Eigen::Matrix3Xd& x_W, double setpoint, double h, ContactStage* stage,
-             GripState* state, SuctionSolution* solution, StepTimings* timings);
+  bool Solve(const Eigen::Matrix3Xd& x_W, double setpoint, double h,
+             const DistanceToSurfaces& distance, ContactStage* stage, GripState* state,
+             SuctionSolution* solution, StepTimings* timings);
 
  private:
   /// Classifies the cavity at the end of a contact solution.
@@ -71,6 +74,8 @@ class Suction {
                  StepTimings* timings) const;
 
   const CavitySurface* cavity_;
+  EdgeWays edge_ways_;
+  DistanceToSurfaces distance_;  // of the step
   SealParameters seal_;
   RegulatorParameters regulator_;
   double young_modulus_;
