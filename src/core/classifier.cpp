@@ -4,11 +4,21 @@
 #include <limits>
 #include <queue>
 #include <stdexcept>
+#include <utility>
 
 namespace vacuum_gripper_sim {
 namespace {
 
 enum class Basin : std::uint8_t { kNone, kPort, kBorder };
+
+/// Calls visit(point, gap) for the far end of every way across an edge that begins at `point`.
+template <typename Visitor>
+void ForWaysFrom(int point, const std::vector<EdgeWay>& ways, const Visitor& visit) {
+  for (const EdgeWay& way : ways) {
+    if (way.from == point) visit(way.to, way.gap);
+    if (way.to == point) visit(way.from, way.gap);
+  }
+}
 
 /// The two floods: which basin owns each point, and the lowest phi on the way there from its seed.
 struct Watershed {
@@ -20,10 +30,11 @@ struct Watershed {
  algorithm with two roots): before any point below some level is taken, all that the seeds reach
  above it are. So the widest way between the seeds crosses from one basin to the other at an edge
  whose two bottlenecks are at least its own. */
-Watershed Flood(const CavitySurface& surface, const std::vector<double>& phi) {
+Watershed Flood(const CavitySurface& surface, const std::vector<double>& phi,
+                const std::vector<EdgeWay>& ways) {
   struct Shore {
-    double phi;
-    int order;  // first come, first served among equals: the outcome depends on the input alone
+    double phi;  // of the point, or of a narrower way to it
+    int order;   // first come, first served among equals: the outcome depends on the input alone
     int point;
     int parent;
     Basin basin;
@@ -49,16 +60,21 @@ Watershed Flood(const CavitySurface& surface, const std::vector<double>& phi) {
     flood.basin[point] = shore.basin;
     const double upstream =
         shore.parent < 0 ? kInfinity : flood.bottleneck[static_cast<std::size_t>(shore.parent)];
-    flood.bottleneck[point] = std::min(phi[point], upstream);
+    flood.bottleneck[point] = std::min(shore.phi, upstream);
     for (const int next : surface.neighbours[point]) {
       if (flood.basin[static_cast<std::size_t>(next)] != Basin::kNone) continue;
       shores.push({phi[static_cast<std::size_t>(next)], order++, next, shore.point, shore.basin});
     }
+    ForWaysFrom(shore.point, ways, [&](int next, double gap) {
+      const double level = std::min(gap, phi[static_cast<std::size_t>(next)]);
+      shores.push({level, order++, next, shore.point, shore.basin});
+    });
   }
   return flood;
 }
 
-double BottleneckGap(const CavitySurface& surface, const Watershed& flood) {
+double BottleneckGap(const CavitySurface& surface, const Watershed& flood,
+                     const std::vector<EdgeWay>& ways) {
   double widest = -std::numeric_limits<double>::infinity();
   for (std::size_t a = 0; a < surface.neighbours.size(); ++a) {
     for (const int neighbour : surface.neighbours[a]) {
@@ -67,12 +83,18 @@ double BottleneckGap(const CavitySurface& surface, const Watershed& flood) {
       widest = std::max(widest, std::min(flood.bottleneck[a], flood.bottleneck[b]));
     }
   }
+  for (const EdgeWay& way : ways) {
+    const auto a = static_cast<std::size_t>(way.from), b = static_cast<std::size_t>(way.to);
+    if (flood.basin[a] == flood.basin[b]) continue;
+    widest = std::max(widest, std::min({way.gap, flood.bottleneck[a], flood.bottleneck[b]}));
+  }
   return widest;
 }
 
 /// The open points that open points join to one of the seeds.
 std::vector<bool> ReachThroughOpen(const CavitySurface& surface, const std::vector<bool>& open,
-                                   const std::vector<int>& seeds) {
+                                   const std::vector<int>& seeds,
+                                   const std::vector<EdgeWay>& ways) {
   std::vector<bool> reached(open.size(), false);
   std::vector<int> stack;
   const auto visit = [&](int point) {
@@ -86,6 +108,7 @@ std::vector<bool> ReachThroughOpen(const CavitySurface& surface, const std::vect
     const int point = stack.back();
     stack.pop_back();
     for (const int next : surface.neighbours[static_cast<std::size_t>(point)]) visit(next);
+    ForWaysFrom(point, ways, [&](int next, double) { visit(next); });
   }
   return reached;
 }
@@ -109,20 +132,21 @@ Zone ZoneOf(const std::vector<int>& neighbours, std::size_t point, const std::ve
 }  // namespace
 
 Classification Classify(const CavitySurface& surface, const std::vector<double>& phi,
-                        double open_gap, const std::vector<bool>& was_wet) {
+                        double open_gap, const std::vector<bool>& was_wet,
+                        std::vector<EdgeWay> edge_ways) {
   const std::size_t num_points = surface.nodes.size();
   if (phi.size() != num_points || (!was_wet.empty() && was_wet.size() != num_points)) {
     throw std::invalid_argument("Classify: one phi and one was_wet a point of the surface");
   }
 
-  const Watershed flood = Flood(surface, phi);
+  const Watershed flood = Flood(surface, phi, edge_ways);
   Classification result;
-  result.bottleneck_gap = BottleneckGap(surface, flood);
+  result.bottleneck_gap = BottleneckGap(surface, flood, edge_ways);
 
   std::vector<bool> open(num_points);
   for (std::size_t i = 0; i < num_points; ++i) open[i] = phi[i] > open_gap;
-  std::vector<bool> outside = ReachThroughOpen(surface, open, surface.border);
-  std::vector<bool> inside = ReachThroughOpen(surface, open, surface.port);
+  std::vector<bool> outside = ReachThroughOpen(surface, open, surface.border, edge_ways);
+  std::vector<bool> inside = ReachThroughOpen(surface, open, surface.port, edge_ways);
 
   result.wet.resize(num_points);
   for (std::size_t i = 0; i < num_points; ++i) {
@@ -138,6 +162,7 @@ Classification Classify(const CavitySurface& surface, const std::vector<double>&
     result.zones[i] = ZoneOf(surface.neighbours[i], i, outside, inside);
     ++result.zone_counts[static_cast<std::size_t>(result.zones[i])];
   }
+  result.edge_ways = std::move(edge_ways);
   return result;
 }
 

@@ -56,6 +56,15 @@ void ContactStage::ForgetWorld() {
   finder_.Forget();
 }
 
+double ContactStage::Distance(const Vector3d& p_W) const {
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const RigidSurface& surface :
+       world_->num_bodies() > 0 ? surfaces_end_ : world_->surfaces()) {
+    nearest = std::min(nearest, vacuum_gripper_sim::Distance(surface, p_W).distance);
+  }
+  return nearest;
+}
+
 void ContactStage::Begin(const RigidWorld& world, const Eigen::Matrix3Xd& x,
                          const Eigen::Matrix3Xd& v, const VectorXd& b, const Eigen::Matrix3Xd& dv_c,
                          const VectorXd& b_bodies, double h) {

@@ -24,8 +24,17 @@ double At(const Profile& profile, int k) {
   return profile[static_cast<std::size_t>(WrapSample(k))];
 }
 
+/// The gap in the middle of an edge that is open between closed ends; 0 of any other edge. [m]
+double PeakOver(int a, int b, const std::vector<EdgeWay>& ways) {
+  for (const EdgeWay& way : ways) {
+    if (std::minmax(way.a, way.b) == std::minmax(a, b)) return way.gap;
+  }
+  return 0.0;
+}
+
 Profile MeridianGaps(const CavitySurface& surface, const std::vector<double>& gap,
-                     const Eigen::Matrix3Xd& x_W, const Eigen::Isometry3d& X_WM) {
+                     const std::vector<EdgeWay>& ways, const Eigen::Matrix3Xd& x_W,
+                     const Eigen::Isometry3d& X_WM) {
   const Eigen::Isometry3d X_MW = X_WM.inverse();
   std::vector<double> azimuth;
   for (const int node : surface.nodes) {
@@ -39,11 +48,13 @@ Profile MeridianGaps(const CavitySurface& surface, const std::vector<double>& ga
       const auto b = static_cast<std::size_t>(neighbour);
       const double way = WrapToPi(azimuth[b] - azimuth[a]);
       if (way <= 0.0) continue;  // the same edge comes the other way round
+      const double peak = PeakOver(static_cast<int>(a), neighbour, ways);
       const int last = static_cast<int>(std::floor((azimuth[a] + way) / kStep));
       for (int k = static_cast<int>(std::ceil(azimuth[a] / kStep)); k <= last; ++k) {
         const double t = (k * kStep - azimuth[a]) / way;
         double& smallest = profile[static_cast<std::size_t>(WrapSample(k))];
-        smallest = std::min(smallest, (1.0 - t) * gap[a] + t * gap[b]);
+        smallest = std::min(
+            smallest, (1.0 - t) * gap[a] + t * gap[b] + (1.0 - std::abs(2.0 * t - 1.0)) * peak);
       }
     }
   }
@@ -58,11 +69,12 @@ double WayToClosed(double open, double closed, double open_gap) {
 }  // namespace
 
 SealOpening FindSealOpening(const CavitySurface& surface, const std::vector<double>& gap,
-                            double bottleneck_gap, double open_gap, const Eigen::Matrix3Xd& x_W,
-                            const Eigen::Isometry3d& X_WM) {
+                            const Classification& classification, double open_gap,
+                            const Eigen::Matrix3Xd& x_W, const Eigen::Isometry3d& X_WM) {
+  const double bottleneck_gap = classification.bottleneck_gap;
   if (!(bottleneck_gap > open_gap)) return {};
   if (std::isinf(bottleneck_gap)) return {0.0, kTurn, bottleneck_gap};
-  const Profile profile = MeridianGaps(surface, gap, x_W, X_WM);
+  const Profile profile = MeridianGaps(surface, gap, classification.edge_ways, x_W, X_WM);
   const int widest =
       static_cast<int>(std::max_element(profile.begin(), profile.end()) - profile.begin());
   const auto is_open = [&](int k) { return At(profile, k) > open_gap; };

@@ -339,7 +339,7 @@ void Simulator::Implementation::ReportObjects(const std::vector<ObjectLoad>& loa
 }
 
 void Simulator::Implementation::ReportOpening() {
-  result_.opening = FindSealOpening(cavity_, result_.gap, result_.bottleneck_gap,
+  result_.opening = FindSealOpening(cavity_, result_.gap, result_.classification,
                                     *parameters_.seal.open_gap, state_.x_W, result_.X_WM);
 }
 

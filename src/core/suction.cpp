@@ -9,9 +9,13 @@ namespace vacuum_gripper_sim {
 
 Suction::Suction(const CavitySurface& cavity, const SealParameters& seal,
                  const RegulatorParameters& regulator, double young_modulus)
-    : cavity_(&cavity), seal_(seal), regulator_(regulator), young_modulus_(young_modulus) {}
+    : cavity_(&cavity),
+      edge_ways_(cavity),
+      seal_(seal),
+      regulator_(regulator),
+      young_modulus_(young_modulus) {}
 
-Classification Suction::ClassifyEnd(const ContactSolution& contact,
+Classification Suction::ClassifyEnd(const ContactStage& stage, const ContactSolution& contact,
                                     const std::vector<bool>& was_wet) const {
   // Loaded points are ordered by the depth by which an elastic half space under a patch of the
   // point's size would be indented, p sqrt(a) / E: a length, as a gap is. Only its order decides.
@@ -27,7 +31,9 @@ Classification Suction::ClassifyEnd(const ContactSolution& contact,
       phi[i] = contact.distance[static_cast<std::size_t>(node)];
     }
   }
-  return Classify(*cavity_, phi, *seal_.open_gap, was_wet);
+  return Classify(*cavity_, phi, *seal_.open_gap, was_wet,
+                  edge_ways_.Find(phi, *seal_.open_gap, contact.x_W,
+                                  [&](const Eigen::Vector3d& p_W) { return stage.Distance(p_W); }));
 }
 
 bool Suction::SolveWith(const std::vector<bool>& wet, double pressure, ContactStage* stage,
@@ -43,7 +49,7 @@ bool Suction::SolveWith(const std::vector<bool>& wet, double pressure, ContactSt
   if (!stage->Solve(solution->load, &solution->contact, timings)) return false;
   const Stopwatch stopwatch(&timings->classification);
   solution->classification =
-      ClassifyEnd(solution->contact, pressure != 0.0 ? wet : std::vector<bool>());
+      ClassifyEnd(*stage, solution->contact, pressure != 0.0 ? wet : std::vector<bool>());
   return true;
 }
 

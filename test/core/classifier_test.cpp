@@ -107,6 +107,20 @@ TEST_F(ClassifierTest, RingWithAGapOfOnePointLeaks) {
   EXPECT_EQ(ZoneAt(result, 4, 0), Zone::kOuterBorder);
 }
 
+// A hole under an edge of the ring: its ends are loaded, and the way across it leads out all the
+// same.
+TEST_F(ClassifierTest, RingWithAHoleBetweenItsPointsLeaks) {
+  SetRing(&phi_, 4, kLoaded);
+  const double gap = 3e-4;
+  const EdgeWay way{Point(4, 7), Point(4, 8), Point(3, 8), Point(5, 7), gap};
+  const Classification result = Classify(surface_, phi_, kOpenGap, {}, {way});
+  EXPECT_EQ(result.bottleneck_gap, gap);
+  EXPECT_EQ(result.zone_counts[static_cast<std::size_t>(Zone::kStrictlyInside)], 0U);
+  EXPECT_EQ(result.zones[0], Zone::kStrictlyOutside);
+  ASSERT_EQ(result.edge_ways.size(), 1U);
+  EXPECT_EQ(Classify(surface_, phi_, kOpenGap).bottleneck_gap, kLoaded);
+}
+
 // The same gap below the tolerance: the zones show a seal, and the bottleneck says how wide it is.
 TEST_F(ClassifierTest, GapBelowTheToleranceSeals) {
   SetRing(&phi_, 4, kLoaded);

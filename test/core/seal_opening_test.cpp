@@ -34,8 +34,8 @@ class SealOpeningTest : public testing::TestWithParam<const char*> {
     const Eigen::Matrix3Xd x_M = MountFromRest(mesh_) * mesh_.nodes;
     std::vector<double> phi;
     for (const int node : surface_.nodes) phi.push_back(gap(x_M.col(node)));
-    const double bottleneck_gap = Classify(surface_, phi, kOpenGap).bottleneck_gap;
-    return FindSealOpening(surface_, phi, bottleneck_gap, kOpenGap, X_WM * x_M, X_WM);
+    const Classification classification = Classify(surface_, phi, kOpenGap);
+    return FindSealOpening(surface_, phi, classification, kOpenGap, X_WM * x_M, X_WM);
   }
 
   const TetMesh mesh_ =

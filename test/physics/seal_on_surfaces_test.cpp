@@ -169,6 +169,16 @@ TEST_F(SealTest, NotWithLessThanHalfOfTheLipOverAnEdge) {
   EXPECT_NEAR(result.opening.width, 2.0 * std::acos(1.0 / 3.0), 0.4);
 }
 
+// A slot that the lip's nodes straddle, narrower than the edges between them.
+TEST_F(SealTest, NotAcrossASlotBetweenTheNodes) {
+  const double edge = 2.0 * M_PI * kLip / 24.0;  // of the lip [m]
+  const StepResult& result = Grip({BoxTo(-0.35 * edge, 0.0), BoxFrom(0.35 * edge, 0.0)}, 0.001);
+  ExpectLeak();
+  // The slot runs along y.
+  EXPECT_NEAR(std::abs(result.opening.azimuth), M_PI / 2.0, 0.2);
+  EXPECT_LT(result.opening.width, 1.0);
+}
+
 // Two boxes side by side, as good as one.
 TEST_F(SealTest, AcrossASeam) {
   const double on_one = Grip({BoxTo(0.05, 0.0)}, 0.001).force_M.z();

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "vacuum_gripper_sim/core/cavity_surface.h"
+#include "vacuum_gripper_sim/core/edge_ways.h"
 
 namespace vacuum_gripper_sim {
 
@@ -25,6 +26,7 @@ struct Classification {
   std::vector<Zone> zones;  ///< A zone a point.
   std::vector<bool> wet;    ///< The points that the cavity's pressure acts on if it is sealed.
   std::array<std::uint32_t, kNumZones> zone_counts{};
+  std::vector<EdgeWay> edge_ways;  ///< Those that were given.
 };
 
 /** Decides where the cavity ends and how wide the widest way out is.
@@ -48,12 +50,16 @@ struct Classification {
  Zones are those of the paper, with "in contact" meaning phi <= open_gap. When port and border are
  joined by open points, no point is inside (Algorithm 1, line 28).
 
+ A flood also takes the ways across edges that are open between closed ends, as wide as they are.
+
  @param surface   The cavity surface, n points.
  @param phi       Opening of each point, n. [m]
  @param open_gap  Points with phi above this count as open. [m]
  @param was_wet   The points that saw suction before this step, n; empty: none.
+ @param edge_ways Ways across edges, wider than open_gap.
  @throws std::invalid_argument if the sizes disagree. */
 Classification Classify(const CavitySurface& surface, const std::vector<double>& phi,
-                        double open_gap, const std::vector<bool>& was_wet = {});
+                        double open_gap, const std::vector<bool>& was_wet = {},
+                        std::vector<EdgeWay> edge_ways = {});
 
 }  // namespace vacuum_gripper_sim

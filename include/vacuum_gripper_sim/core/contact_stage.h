@@ -79,6 +79,10 @@ class ContactStage {
    @returns false if A is not positive definite. */
   bool Solve(const Eigen::Matrix3Xd& load, ContactSolution* solution, StepTimings* timings);
 
+  /// Of a point to the surface nearest to it, where the last Solve() left them; +inf without any.
+  /// @param p_W World. [m]
+  double Distance(const Eigen::Vector3d& p_W) const;
+
   /// Forgets the warm start, as after a step that was undone.
   void ForgetForces();
   /// Forgets what was seen of the objects, too, as when there are others or the cup is elsewhere.

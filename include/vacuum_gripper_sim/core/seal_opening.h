@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "vacuum_gripper_sim/core/cavity_surface.h"
+#include "vacuum_gripper_sim/core/classifier.h"
 
 namespace vacuum_gripper_sim {
 
@@ -21,17 +22,18 @@ struct SealOpening {
 
  A meridian is the line on the cavity surface from port to rim at one azimuth about the mount's
  axis; its gap G is the smallest on it, and usually that of the lip's lowest point there. Gaps run
- linearly along the edges of the surface. The opening is the range of azimuths over which G exceeds
- `open_gap`, without interruption; of several it is the one with the largest G. G is sampled every 2
- degrees, and linear in between. A way out that winds across the meridians so that none is open from
- end to end counts as an opening of 2 degrees at the azimuth of the largest G. The largest gap is
- that of the classifier, whose ways out may wind.
+ linearly along the edges of the surface, with a peak in the middle of one that is open between
+ closed ends. The opening is the range of azimuths over which G exceeds `open_gap`, without
+ interruption; of several it is the one with the largest G. G is sampled every 2 degrees, and linear
+ in between. A way out that winds across the meridians so that none is open from end to end counts
+ as an opening of 2 degrees at the azimuth of the largest G. The largest gap is that of the
+ classifier, whose ways out may wind.
 
- @param gap Of every point of the surface. [m] @param bottleneck_gap The classifier's; the cavity is
- airtight if it does not exceed open_gap. [m] @param open_gap What the seal tolerates. [m]
+ @param gap Of every point of the surface. [m] @param classification Of it; the cavity is airtight
+ if the bottleneck gap does not exceed open_gap. @param open_gap What the seal tolerates. [m]
  @param x_W Positions of all mesh nodes, 3 by #nodes. [m] @param X_WM Pose of the mount. */
 SealOpening FindSealOpening(const CavitySurface& surface, const std::vector<double>& gap,
-                            double bottleneck_gap, double open_gap, const Eigen::Matrix3Xd& x_W,
-                            const Eigen::Isometry3d& X_WM);
+                            const Classification& classification, double open_gap,
+                            const Eigen::Matrix3Xd& x_W, const Eigen::Isometry3d& X_WM);
 
 }  // namespace vacuum_gripper_sim

@@ -6,6 +6,7 @@
 #include "vacuum_gripper_sim/core/cavity_surface.h"
 #include "vacuum_gripper_sim/core/classifier.h"
 #include "vacuum_gripper_sim/core/contact_stage.h"
+#include "vacuum_gripper_sim/core/edge_ways.h"
 #include "vacuum_gripper_sim/core/parameters.h"
 #include "vacuum_gripper_sim/core/step_result.h"
 
@@ -61,7 +62,7 @@ class Suction {
 
  private:
   /// Classifies the cavity at the end of a contact solution.
-  Classification ClassifyEnd(const ContactSolution& contact,
+  Classification ClassifyEnd(const ContactStage& stage, const ContactSolution& contact,
                              const std::vector<bool>& was_wet) const;
   bool SolveWith(const std::vector<bool>& wet, double pressure, ContactStage* stage,
                  SuctionSolution* solution, StepTimings* timings) const;
@@ -71,6 +72,7 @@ class Suction {
                  StepTimings* timings) const;
 
   const CavitySurface* cavity_;
+  EdgeWays edge_ways_;
   SealParameters seal_;
   RegulatorParameters regulator_;
   double young_modulus_;
