@@ -4,9 +4,12 @@
 #include <urdf_model/model.h>
 #include <urdf_parser/urdf_parser.h>
 
+#include <cstddef>
 #include <exception>
 #include <stdexcept>
 #include <utility>
+
+#include "scene_xml.h"
 
 namespace vacuum_gripper_sim {
 namespace {
@@ -73,50 +76,107 @@ Shape ToShape(const urdf::Geometry& geometry, const std::string& link) {
   }
 }
 
-std::vector<RigidSurface> ReadSurfaces(const urdf::Link& link) {
+/// The model and what urdfdom passes over in it.
+struct Scene {
+  urdf::ModelInterfaceSharedPtr model;
+  const SceneXml& xml;
+  double friction;  // where the URDF says none
+};
+
+[[noreturn]] void Refuse(const std::string& link, const std::string& reason) {
+  throw std::invalid_argument("scene: link " + link + ": " + reason);
+}
+
+std::vector<RigidSurface> ReadSurfaces(const Scene& scene, const urdf::Link& link) {
   std::vector<RigidSurface> surfaces;
   for (const urdf::CollisionSharedPtr& collision : link.collision_array) {
     if (collision == nullptr || collision->geometry == nullptr) {
-      throw std::invalid_argument("scene: link " + link.name +
-                                  ": a collision element without geometry; expected box, sphere "
-                                  "or cylinder");
+      Refuse(link.name, "a collision element without geometry; expected box, sphere or cylinder");
     }
     RigidSurface surface;
     surface.name = link.name;
     surface.shape = ToShape(*collision->geometry, link.name);
     surface.X_FS = ToIsometry(collision->origin);
-    try {
-      Validate(surface);
-    } catch (const std::invalid_argument& e) {
-      throw std::invalid_argument("scene: link " + link.name + ": " + e.what());
-    }
+    surface.friction = scene.xml.Friction(link.name, surfaces.size()).value_or(scene.friction);
     surfaces.push_back(std::move(surface));
   }
   return surfaces;
 }
 
-/// Depth first from the root, so that parents come before their children.
-void Collect(const urdf::Link& link, const Eigen::Isometry3d& X_RL,
-             std::vector<RigidObject>* objects) {
+RigidInertia ToInertia(const urdf::Inertial& inertial) {
+  RigidInertia inertia;
+  inertia.mass = inertial.mass;
+  const Eigen::Isometry3d X_OC = ToIsometry(inertial.origin);
+  inertia.p_OC = X_OC.translation();
+  Eigen::Matrix3d about_C_C;
+  about_C_C << inertial.ixx, inertial.ixy, inertial.ixz,  //
+      inertial.ixy, inertial.iyy, inertial.iyz,           //
+      inertial.ixz, inertial.iyz, inertial.izz;
+  inertia.about_C_O = X_OC.linear() * about_C_C * X_OC.linear().transpose();
+  return inertia;
+}
+
+bool IsFree(const urdf::Link& link) {
+  return link.parent_joint != nullptr && link.parent_joint->type == urdf::Joint::FLOATING;
+}
+
+RigidObject ReadObject(const Scene& scene, const urdf::Link& link, const Eigen::Isometry3d& X_RL) {
   RigidObject object;
   object.name = link.name;
-  object.surfaces = ReadSurfaces(link);
+  object.surfaces = ReadSurfaces(scene, link);
   object.X_WO = X_RL;
-  if (!object.surfaces.empty()) objects->push_back(std::move(object));
+  if (IsFree(link)) {
+    const std::string joint = "its joint " + link.parent_joint->name + " is floating";
+    if (link.inertial == nullptr) {
+      Refuse(link.name,
+             "no inertial element, but " + joint + "; expected mass and inertia of a free object");
+    }
+    if (object.surfaces.empty()) {
+      Refuse(link.name, "no collision element, but " + joint + "; expected at least one");
+    }
+    object.inertia = ToInertia(*link.inertial);
+  }
+  if (object.surfaces.empty()) return object;
+  try {
+    Validate(object);
+  } catch (const std::invalid_argument& e) {
+    const std::string reason = e.what();
+    const std::string prefix = "object '" + object.name + "': ";  // said already
+    Refuse(link.name,
+           reason.compare(0, prefix.size(), prefix) == 0 ? reason.substr(prefix.size()) : reason);
+  }
+  return object;
+}
+
+/// Depth first from the root, so that parents come before their children.
+/// @param free The free link above this one; null: none.
+void Collect(const Scene& scene, const urdf::Link& link, const Eigen::Isometry3d& X_RL,
+             const urdf::Link* free, std::vector<RigidObject>* objects) {
+  RigidObject object = ReadObject(scene, link, X_RL);
+  if (!object.surfaces.empty()) {
+    if (free != nullptr) {
+      Refuse(link.name, "has collision geometry below the free link " + free->name +
+                            "; expected it in the free link itself");
+    }
+    objects->push_back(std::move(object));
+  }
+  if (IsFree(link)) free = &link;
   for (const urdf::LinkSharedPtr& child : link.child_links) {
-    Collect(*child, X_RL * ToIsometry(child->parent_joint->parent_to_joint_origin_transform),
-            objects);
+    Collect(scene, *child, X_RL * ToIsometry(child->parent_joint->parent_to_joint_origin_transform),
+            free, objects);
   }
 }
 
 }  // namespace
 
-std::vector<RigidObject> ReadSceneUrdf(const std::string& xml) {
-  const urdf::ModelInterfaceSharedPtr model = Parse(xml);
+std::vector<RigidObject> ReadSceneUrdf(const std::string& xml, double friction) {
+  const SceneXml scene_xml(xml);
+  scene_xml.CheckTree();  // urdfdom leaves a cycle out and says nothing
+  const Scene scene{Parse(xml), scene_xml, friction};
   std::vector<RigidObject> objects;
-  Collect(*model->getRoot(), Eigen::Isometry3d::Identity(), &objects);
+  Collect(scene, *scene.model->getRoot(), Eigen::Isometry3d::Identity(), nullptr, &objects);
   if (objects.empty()) {
-    throw std::invalid_argument("scene: robot " + model->getName() +
+    throw std::invalid_argument("scene: robot " + scene.model->getName() +
                                 " has no collision geometry; expected at least one box, sphere or "
                                 "cylinder");
   }

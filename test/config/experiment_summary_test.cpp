@@ -26,7 +26,7 @@ StepResult At(double time, double z, SealStatus status, double force_z, double s
 }
 
 TEST(ExperimentSummary, FollowsAGripByHand) {
-  SummaryAccumulator accumulator(Down(0.030), 0.1);
+  SummaryAccumulator accumulator(Down(0.030), {}, 0.1);
   accumulator.Add(At(0.1, 0.020, SealStatus::kOpen, -9.0));  // down: pushes hardest
   accumulator.Add(At(0.2, 0.019, SealStatus::kRegulating, -0.3));
   accumulator.Add(At(0.3, 0.019, SealStatus::kSealed, 3.2));
@@ -49,7 +49,7 @@ TEST(ExperimentSummary, FollowsAGripByHand) {
 }
 
 TEST(ExperimentSummary, CountsEveryFlipAndTheFirstTimes) {
-  SummaryAccumulator accumulator(Down(0.0), 1.0);
+  SummaryAccumulator accumulator(Down(0.0), {}, 1.0);
   const SealStatus sequence[] = {SealStatus::kOpen,       SealStatus::kSealed, SealStatus::kLost,
                                  SealStatus::kRegulating, SealStatus::kSealed, SealStatus::kLost};
   double time = 0.0;
@@ -61,7 +61,7 @@ TEST(ExperimentSummary, CountsEveryFlipAndTheFirstTimes) {
 
 TEST(ExperimentSummary, UpIsAgainstTheApproachAxisOfATiltedMount) {
   Eigen::Isometry3d start = Eigen::Isometry3d::Identity();  // z of the mount along z of the world
-  SummaryAccumulator accumulator(start, 1.0);
+  SummaryAccumulator accumulator(start, {}, 1.0);
   StepResult result;
   result.X_WM = start;
   result.X_WM.translation().z() = 0.1;  // towards the object
@@ -77,7 +77,7 @@ TEST(ExperimentSummary, UpIsAgainstTheApproachAxisOfATiltedMount) {
 }
 
 TEST(ExperimentSummary, StepTimesByRank) {
-  SummaryAccumulator accumulator(Down(0.0), 0.01);
+  SummaryAccumulator accumulator(Down(0.0), {}, 0.01);
   for (int i = 100; i >= 1; --i) accumulator.Add(At(0.0, 0.0, SealStatus::kOpen, 0.0, i));
   EXPECT_NEAR(accumulator.Summary().median_step_ms, 50.5, 1e-9);
   EXPECT_NEAR(accumulator.Summary().p99_step_ms, 99.0, 1e-9);
@@ -86,7 +86,7 @@ TEST(ExperimentSummary, StepTimesByRank) {
 }
 
 TEST(ExperimentSummary, CountsUndoneStepsAndKeepsExtremes) {
-  SummaryAccumulator accumulator(Down(0.0), 0.01);
+  SummaryAccumulator accumulator(Down(0.0), {}, 0.01);
   StepResult result;
   result.max_penetration = 3e-7;
   result.gauge_pressure = -6000.0;

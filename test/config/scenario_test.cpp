@@ -67,7 +67,7 @@ surfaces:
   EXPECT_EQ(scenario.objects[0].name, "lid");
   EXPECT_EQ(std::get<Box>(scenario.objects[0].surfaces[0].shape).size,
             Eigen::Vector3d(0.1, 0.2, 0.3));
-  EXPECT_EQ(scenario.objects[0].surfaces[0].X_FS.translation(), Eigen::Vector3d(0.0, 0.0, -0.15));
+  EXPECT_EQ(scenario.objects[0].X_WO.translation(), Eigen::Vector3d(0.0, 0.0, -0.15));
   EXPECT_EQ(std::get<Sphere>(scenario.objects[1].surfaces[0].shape).radius, 0.04);
   EXPECT_EQ(std::get<Cylinder>(scenario.objects[2].surfaces[0].shape).length, 0.06);
 }
