@@ -151,35 +151,46 @@ RigidObject ReadObject(const Scene& scene, const urdf::Link& link, const Eigen::
 /// Depth first from the root, so that parents come before their children.
 /// @param free The free link above this one; null: none.
 void Collect(const Scene& scene, const urdf::Link& link, const Eigen::Isometry3d& X_RL,
-             const urdf::Link* free, std::vector<RigidObject>* objects) {
-  RigidObject object = ReadObject(scene, link, X_RL);
-  if (!object.surfaces.empty()) {
+             const urdf::Link* free, std::vector<SceneLink>* links) {
+  SceneLink found;
+  found.object = ReadObject(scene, link, X_RL);
+  if (!found.object.surfaces.empty()) {
     if (free != nullptr) {
       Refuse(link.name, "has collision geometry below the free link " + free->name +
                             "; expected it in the free link itself");
     }
-    objects->push_back(std::move(object));
+    if (link.parent_joint != nullptr) {
+      found.parent = link.parent_joint->parent_link_name;
+      found.X_PO = ToIsometry(link.parent_joint->parent_to_joint_origin_transform);
+    }
+    links->push_back(std::move(found));
   }
   if (IsFree(link)) free = &link;
   for (const urdf::LinkSharedPtr& child : link.child_links) {
     Collect(scene, *child, X_RL * ToIsometry(child->parent_joint->parent_to_joint_origin_transform),
-            free, objects);
+            free, links);
   }
 }
 
 }  // namespace
 
-std::vector<RigidObject> ReadSceneUrdf(const std::string& xml, double friction) {
+std::vector<SceneLink> ReadSceneLinks(const std::string& xml, double friction) {
   const SceneXml scene_xml(xml);
   scene_xml.CheckTree();  // urdfdom leaves a cycle out and says nothing
   const Scene scene{Parse(xml), scene_xml, friction};
-  std::vector<RigidObject> objects;
-  Collect(scene, *scene.model->getRoot(), Eigen::Isometry3d::Identity(), nullptr, &objects);
-  if (objects.empty()) {
+  std::vector<SceneLink> links;
+  Collect(scene, *scene.model->getRoot(), Eigen::Isometry3d::Identity(), nullptr, &links);
+  if (links.empty()) {
     throw std::invalid_argument("scene: robot " + scene.model->getName() +
                                 " has no collision geometry; expected at least one box, sphere or "
                                 "cylinder");
   }
+  return links;
+}
+
+std::vector<RigidObject> ReadSceneUrdf(const std::string& xml, double friction) {
+  std::vector<RigidObject> objects;
+  for (SceneLink& link : ReadSceneLinks(xml, friction)) objects.push_back(std::move(link.object));
   return objects;
 }
 

@@ -120,6 +120,7 @@ SurfaceList ReadObjects(const YAML::Node& node, const std::string& name, double 
     surface.friction = ReadFriction(&reader, friction);
     RigidObject object = FixedObject(std::move(surface));
     object.inertia = ReadInertia(&reader, object.surfaces.front().shape);
+    if (object.inertia) object.velocity_W = reader.GetVector3("velocity", object.velocity_W);
     ObjectMotion motion;
     motion.object = static_cast<int>(i);
     object.X_WO = ReadPose(&reader, &motion.keyframes);

@@ -18,7 +18,7 @@ std::string Link(const std::string& name, const std::string& geometry) {
 
 std::string Error(const std::string& xml) {
   testing::internal::CaptureStderr();
-  const std::string error = ErrorOf([&] { ReadSceneUrdf(xml); });
+  const std::string error = ErrorOf([&] { ReadSceneUrdf(xml, 0.0); });
   EXPECT_EQ(testing::internal::GetCapturedStderr(), "") << "the parser's own words must not show";
   return error;
 }
@@ -33,7 +33,8 @@ TEST(SceneUrdf, ReadsShapesAndPoses) {
             "<geometry><box size=\"1 2 3\"/></geometry></collision>"
             "<collision><geometry><sphere radius=\"0.25\"/></geometry></collision>"
             "<collision><geometry><cylinder radius=\"0.5\" length=\"2\"/></geometry></collision>"
-            "</link>"));
+            "</link>"),
+      0.0);
   ASSERT_EQ(links.size(), 1U);  // the world has no surface
   const RigidObject& table = links[0];
   EXPECT_EQ(table.name, "table");

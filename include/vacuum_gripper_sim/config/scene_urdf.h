@@ -1,11 +1,19 @@
 #pragma once
 
+#include <Eigen/Geometry>
 #include <string>
 #include <vector>
 
 #include "vacuum_gripper_sim/core/rigid_object.h"
 
 namespace vacuum_gripper_sim {
+
+/// A link of a scene with something to touch.
+struct SceneLink {
+  RigidObject object;  ///< Named as the link; X_WO is its pose in the URDF's root link.
+  std::string parent;  ///< Link above; empty: it is the root.
+  Eigen::Isometry3d X_PO{Eigen::Isometry3d::Identity()};  ///< Pose in it, its joint at zero.
+};
 
 /** Reads the collision geometry of a URDF with urdfdom: box, sphere, cylinder. Every link with
  collision elements becomes an object, named as the link, which is its tf frame, and placed in the
@@ -20,6 +28,9 @@ namespace vacuum_gripper_sim {
    or not positive, a mesh (not supported yet), no collision geometry at all; two links of one name,
    two parents, a cycle; a free link without inertial or collision, with a mass or inertia that no
    body has, or with collision geometry in a link below it; negative friction. */
-std::vector<RigidObject> ReadSceneUrdf(const std::string& xml, double friction = 0.0);
+std::vector<SceneLink> ReadSceneLinks(const std::string& xml, double friction);
+
+/// The objects of ReadSceneLinks().
+std::vector<RigidObject> ReadSceneUrdf(const std::string& xml, double friction);
 
 }  // namespace vacuum_gripper_sim

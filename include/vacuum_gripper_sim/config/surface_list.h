@@ -26,8 +26,9 @@ struct SurfaceList {
 /** Reads a list of rigid objects in the world, each a map of `name`, `type` (plane, box, sphere,
  cylinder), its dimensions (`size` [x, y, z] of a box, `radius`, `length` of a cylinder) [m],
  `friction` [-], and either `position` [m] (default: the origin) and `rotation` (default: none), or
- `motion`, see ReadMotion(). With `mass` [kg] it is free, its centre of mass in the middle, and
- `inertia` [Ixx, Iyy, Izz] [kg m^2] about it is that of a uniform solid if not set.
+ `motion`, see ReadMotion(). With `mass` [kg] it is free, its centre of mass in the middle,
+ `inertia` [Ixx, Iyy, Izz] [kg m^2] about it is that of a uniform solid if not set, and `velocity`
+ [m/s] at first none.
  @param name Dotted path of the list, for messages.
  @param friction Of those that do not say. [-]
  @throws std::invalid_argument naming the key, its value and what is allowed. */
