@@ -35,8 +35,8 @@ bool ConstraintOperator::MayBePlain(const Contact& contact) const {
 Eigen::Matrix3d ConstraintOperator::Axes(const Contact& contact) {
   Eigen::Matrix3d axes;
   axes.col(0) = contact.normal;
-  axes.col(1) = contact.normal.unitOrthogonal();
-  axes.col(2) = contact.normal.cross(axes.col(1));
+  axes.col(2) = contact.normal.cross(contact.across).normalized();
+  axes.col(1) = axes.col(2).cross(contact.normal);
   return axes;
 }
 

@@ -8,6 +8,13 @@ namespace {
 /// Objects farther apart than this when a step begins do not meet during it. [m]
 constexpr double kBodyReach = 0.02;
 
+/// The axis that is most across a normal.
+Eigen::Vector3d Across(const Eigen::Vector3d& normal) {
+  Eigen::Index axis = 0;
+  normal.cwiseAbs().minCoeff(&axis);
+  return Eigen::Vector3d::Unit(axis);
+}
+
 }  // namespace
 
 void ContactFinder::Begin(const RigidWorld& world, const Eigen::Matrix3Xd& x0_W, double h) {
@@ -56,6 +63,7 @@ Contact ContactFinder::NodeAgainst(int pair, const SurfaceDistance& seen, double
   contact.object = world_->ObjectOf(surface);
   contact.p_W = x0_W_.col(node) - start.distance * start.normal;
   contact.normal = seen.normal;
+  contact.across = Across(start.normal);
   contact.gap = gap;
   contact.friction = world_->surfaces()[static_cast<std::size_t>(surface)].friction;
   if (contact.friction > 0.0) {
@@ -73,6 +81,7 @@ Contact ContactFinder::BodyAgainst(const BodyContacts::Pair& pair, const Surface
   contact.other = world_->ObjectOf(pair.feeling);
   contact.p_W = pair.p_W - pair.radius * pair.seen.normal;
   contact.normal = seen.normal;
+  contact.across = Across(pair.seen.normal);
   contact.gap = gap;
   const std::vector<RigidSurface>& surfaces = world_->surfaces();
   contact.friction = std::sqrt(surfaces[static_cast<std::size_t>(pair.feeling)].friction *

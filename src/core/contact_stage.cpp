@@ -68,7 +68,7 @@ void ContactStage::FindCandidates() {
     if (is_candidate_.count(key) > 0) return false;
     if (gap < parameters_.alarm_distance) return true;
     const auto warm_start = warm_starts_.find(key);
-    return warm_start != warm_starts_.end() && warm_start->second.x() > 0.0;
+    return warm_start != warm_starts_.end() && warm_start->second.normal > 0.0;
   }));
 }
 
@@ -95,10 +95,15 @@ TrialEnd ContactStage::EndOf(const VectorXd& dv_f, const VectorXd& dV) {
 void ContactStage::AddCandidates(const std::vector<Contact>& contacts) {
   for (const Contact& contact : contacts) {
     is_candidate_.insert(contact.key);
+    Candidate candidate;
+    candidate.contact = contact;
     const auto warm_start = warm_starts_.find(contact.key);
-    candidates_.push_back(
-        {contact, warm_start == warm_starts_.end() ? Vector3d::Zero().eval() : warm_start->second,
-         Vector3d::Zero()});
+    if (warm_start != warm_starts_.end()) {
+      candidate.force =
+          ConstraintOperator::Axes(contact).transpose() * warm_start->second.tangential_W;
+      candidate.force.x() = warm_start->second.normal;
+    }
+    candidates_.push_back(candidate);
   }
 }
 
@@ -138,10 +143,13 @@ VectorXd ContactStage::Stacked(Vector3d Candidate::*values) const {
 void ContactStage::SetForces(const VectorXd& lambda) {
   for (std::size_t i = 0; i < candidates_.size(); ++i) {
     const ContactRows& rows = operator_.rows()[i];
-    Vector3d& force = candidates_[i].force;
+    auto& [contact, force, applied] = candidates_[i];
+    WarmStart& warm_start = warm_starts_[contact.key];
     force.x() = lambda(rows.normal);
-    if (rows.has_tangents()) force.tail<2>() = lambda.segment<2>(rows.tangent());
-    warm_starts_[candidates_[i].contact.key] = force;
+    warm_start.normal = force.x();
+    if (!rows.has_tangents()) continue;
+    force.tail<2>() = lambda.segment<2>(rows.tangent());
+    warm_start.tangential_W = ConstraintOperator::Axes(contact).rightCols<2>() * force.tail<2>();
   }
 }
 

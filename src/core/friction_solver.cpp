@@ -1,5 +1,6 @@
 #include "vacuum_gripper_sim/core/friction_solver.h"
 
+#include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
@@ -10,6 +11,7 @@ namespace {
 
 using Eigen::Index;
 using Eigen::Matrix2d;
+using Eigen::MatrixXd;
 using Eigen::Vector2d;
 using Eigen::VectorXd;
 
@@ -21,6 +23,18 @@ constexpr int kMaxHalvings = 4;
 Vector2d ProjectOntoDisc(const Vector2d& z, double radius) {
   const double size = z.norm();
   return size <= radius ? z : Vector2d(z * (radius / size));
+}
+
+/// More contacts than ways to move make W semi-definite, and rounding may leave it less than that.
+Eigen::LLT<MatrixXd> FactorOf(const MatrixXd& W_lower) {
+  Eigen::LLT<MatrixXd> factor;
+  for (double share = kContactRegularization; share < 1e-5; share *= 1e3) {
+    MatrixXd W = W_lower;
+    W.diagonal() *= 1.0 + share;
+    factor.compute(W);
+    if (factor.info() == Eigen::Success) break;
+  }
+  return factor;
 }
 
 class FrictionProblem {
@@ -36,6 +50,7 @@ class FrictionProblem {
   VectorXd NewtonTarget(const VectorXd& lambda, const VectorXd& end) const;
 
  private:
+  bool Slides(const ContactRows& contact, const VectorXd& lambda, const VectorXd& end) const;
   double NormalScale(const ContactRows& contact) const {
     return (*W_)(contact.normal, contact.normal);
   }
@@ -64,6 +79,13 @@ double FrictionProblem::Residual(const VectorXd& lambda, const VectorXd& end) co
   return residual;
 }
 
+bool FrictionProblem::Slides(const ContactRows& contact, const VectorXd& lambda,
+                             const VectorXd& end) const {
+  const Vector2d z = lambda.segment<2>(contact.tangent()) -
+                     end.segment<2>(contact.tangent()) / TangentScale(contact);
+  return z.norm() > contact.friction * std::max(0.0, lambda(contact.normal));
+}
+
 /// One sweep of projected Gauss-Seidel.
 void FrictionProblem::Sweep(double relaxation, VectorXd* lambda, VectorXd* end) const {
   for (const ContactRows& contact : *rows_) {
@@ -82,59 +104,88 @@ void FrictionProblem::Sweep(double relaxation, VectorXd* lambda, VectorXd* end) 
   }
 }
 
-/// The forces to which a full Newton step leads: zero where contacts open, and of the closed ones
-/// those of the linearised projections.
+/** The forces to which a full Newton step leads: zero where contacts open, and of the closed ones
+ those of the linearised projections. Rows that keep their gap or slip at zero (E) are W's own and
+ symmetric; those of sliding tangents (S) are eliminated after them. */
 VectorXd FrictionProblem::NewtonTarget(const VectorXd& lambda, const VectorXd& end) const {
-  std::vector<const ContactRows*> closed;
-  std::vector<Index> unknowns;  // rows of W
+  std::vector<Index> held;                  // rows of W in E
+  std::vector<const ContactRows*> sliding;  // their tangents are S
   for (const ContactRows& contact : *rows_) {
-    const Index n = contact.normal;
-    if (NormalScale(contact) * lambda(n) - end(n) <= 0.0) continue;
-    closed.push_back(&contact);
-    for (Index i = 0; i < (contact.has_tangents() ? 3 : 1); ++i) unknowns.push_back(n + i);
+    if (NormalScale(contact) * lambda(contact.normal) - end(contact.normal) <= 0.0) continue;
+    held.push_back(contact.normal);
+    if (!contact.has_tangents()) continue;
+    if (Slides(contact, lambda, end)) {
+      sliding.push_back(&contact);
+    } else {
+      held.push_back(contact.tangent());
+      held.push_back(contact.tangent() + 1);
+    }
   }
-  const auto size = static_cast<Index>(unknowns.size());
   VectorXd target = VectorXd::Zero(lambda.size());
-  if (size == 0) return target;
+  const auto num_held = static_cast<Index>(held.size());
+  const auto num_sliding = 2 * static_cast<Index>(sliding.size());
+  if (num_held == 0) return target;
 
-  const auto row_of = [&](Index i) { return unknowns[static_cast<std::size_t>(i)]; };
-  Eigen::MatrixXd A(size, size);
-  VectorXd right(size);
-  VectorXd without_open(size);  // W lambda, of closed contacts
-  for (Index j = 0; j < size; ++j) {
-    for (Index i = 0; i < size; ++i) A(i, j) = (*W_)(row_of(i), row_of(j));
-    A(j, j) *= 1.0 + kContactRegularization;
-    right(j) = -(*delta_)(row_of(j));
-  }
-  VectorXd now(size);
-  for (Index i = 0; i < size; ++i) now(i) = lambda(row_of(i));
-  without_open.noalias() = A * now;
-
-  Index i = 0;
-  for (const ContactRows* contact : closed) {
-    if (!contact->has_tangents()) {
-      ++i;
-      continue;
+  // W_EE (forces of E) = right_E - W_ES (forces of S)
+  MatrixXd W_EE(num_held, num_held);
+  MatrixXd right(num_held, num_sliding + 1);
+  for (Index i = 0; i < num_held; ++i) {
+    const Index row = held[static_cast<std::size_t>(i)];
+    for (Index j = 0; j <= i; ++j) {
+      W_EE(i, j) = (*W_)(row, held[static_cast<std::size_t>(j)]);
     }
-    const double scale = TangentScale(*contact);
-    const Vector2d force = now.segment<2>(i + 1);
-    const Vector2d z = force - end.segment<2>(contact->tangent()) / scale;
-    const double size_of_z = z.norm();
-    const double radius = contact->friction * std::max(0.0, now(i));
-    if (size_of_z > radius) {
-      // lambda_t - mu lambda_n d - theta P (lambda_t - W_t lambda / W_tt) stays what it is at
-      // `now` in its last term, d and P = 1 - d d^T being those of z; times W_tt, as W's rows.
+    for (Index s = 0; s < num_sliding; s += 2) {
+      right.block<1, 2>(i, s) =
+          W_->block<1, 2>(row, sliding[static_cast<std::size_t>(s / 2)]->tangent());
+    }
+    right(i, num_sliding) = -(*delta_)(row);
+  }
+  const Eigen::LLT<MatrixXd> factor = FactorOf(W_EE);
+  if (factor.info() != Eigen::Success) return lambda;
+  factor.solveInPlace(right);
+  VectorXd forces_E = right.col(num_sliding);
+
+  if (num_sliding > 0) {
+    MatrixXd B_SE(num_sliding, num_held);
+    MatrixXd B_SS(num_sliding, num_sliding);
+    VectorXd right_S(num_sliding);
+    for (Index s = 0; s < num_sliding; s += 2) {
+      const ContactRows& contact = *sliding[static_cast<std::size_t>(s / 2)];
+      const Index t = contact.tangent();
+      const double scale = TangentScale(contact);
+      const Vector2d force = lambda.segment<2>(t);
+      const Vector2d z = force - end.segment<2>(t) / scale;
+      const double size_of_z = z.norm();
+      const double radius = contact.friction * std::max(0.0, lambda(contact.normal));
+      // lambda_t - mu lambda_n d - theta P (lambda_t - W_t lambda / W_tt), where d, P = 1 - d d^T
+      // and theta are those of z, keeps its last term; times W_tt, as W's rows.
       const Vector2d d = z / size_of_z;
-      const Matrix2d P_theta = (radius / size_of_z) * (Matrix2d::Identity() - d * d.transpose());
-      right.segment<2>(i + 1) = -P_theta * (scale * force - without_open.segment<2>(i + 1));
-      A.middleRows<2>(i + 1) = (P_theta * A.middleRows<2>(i + 1)).eval();
-      A.block<2, 2>(i + 1, i + 1) += scale * (Matrix2d::Identity() - P_theta);
-      A.block<2, 1>(i + 1, i) -= scale * contact->friction * d;
+      const Matrix2d theta_P = (radius / size_of_z) * (Matrix2d::Identity() - d * d.transpose());
+      for (Index j = 0; j < num_held; ++j) {
+        const Index column = held[static_cast<std::size_t>(j)];
+        B_SE.block<2, 1>(s, j) = theta_P * W_->block<2, 1>(t, column);
+        if (column == contact.normal) B_SE.block<2, 1>(s, j) -= scale * contact.friction * d;
+      }
+      for (Index j = 0; j < num_sliding; j += 2) {
+        const Index column = sliding[static_cast<std::size_t>(j / 2)]->tangent();
+        B_SS.block<2, 2>(s, j) = theta_P * W_->block<2, 2>(t, column);
+      }
+      B_SS.block<2, 2>(s, s) += scale * (Matrix2d::Identity() - theta_P);
+      right_S.segment<2>(s) =
+          -theta_P * (scale * force - (end.segment<2>(t) - delta_->segment<2>(t)));
     }
-    i += 3;
+    B_SS.noalias() -= B_SE * right.leftCols(num_sliding);
+    right_S.noalias() -= B_SE * forces_E;
+    const VectorXd forces_S = B_SS.partialPivLu().solve(right_S);
+    forces_E.noalias() -= right.leftCols(num_sliding) * forces_S;
+    for (Index s = 0; s < num_sliding; s += 2) {
+      target.segment<2>(sliding[static_cast<std::size_t>(s / 2)]->tangent()) =
+          forces_S.segment<2>(s);
+    }
   }
-  const VectorXd forces = A.partialPivLu().solve(right);
-  for (Index k = 0; k < size; ++k) target(row_of(k)) = forces(k);
+  for (Index i = 0; i < num_held; ++i) {
+    target(held[static_cast<std::size_t>(i)]) = forces_E(i);
+  }
   return target;
 }
 

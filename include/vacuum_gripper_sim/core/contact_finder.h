@@ -27,6 +27,7 @@ struct Contact {
   int other{RigidWorld::kNone};     ///< What touches it in the cup's place.
   Eigen::Vector3d p_W;              ///< Where, when the step begins. [m]
   Eigen::Vector3d normal;           ///< World axes.
+  Eigen::Vector3d across;           ///< Some direction across it, the same all step.
   double gap{0.0};                  ///< < 0: penetrating. [m]
   Eigen::Vector3d slip_W;           ///< Of the one over the other since the step began. [m]
   double friction{0.0};             ///< Coulomb's mu. [-]

@@ -139,7 +139,13 @@ class ContactStage {
   std::unordered_set<std::uint64_t> is_candidate_;  // by key
   ConstraintOperator operator_;                     // of the first candidates or of all
 
-  std::unordered_map<std::uint64_t, Eigen::Vector3d> warm_starts_;  // by key [N]
+  /// Forces of the last step, by key: the normal one and the others in world axes, as what is
+  /// across a normal may change from step to step. [N]
+  struct WarmStart {
+    double normal{0.0};
+    Eigen::Vector3d tangential_W{Eigen::Vector3d::Zero()};
+  };
+  std::unordered_map<std::uint64_t, WarmStart> warm_starts_;
 };
 
 }  // namespace vacuum_gripper_sim
