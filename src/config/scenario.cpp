@@ -44,6 +44,9 @@ SurfaceList ReadWorld(ParameterReader* reader, const Directories& directories) {
   const double friction = ReadFriction(reader, 0.0);
   const YAML::Node list = reader->GetNode("surfaces");
   if (!reader->Has("scene")) {
+    if (reader->Has("motions")) {
+      throw std::invalid_argument("motions is set without scene; expected motion in a surface");
+    }
     if (reader->Has("surfaces")) return ReadObjects(list, "surfaces", friction);
     RigidSurface ground;
     ground.name = "ground";
@@ -57,7 +60,13 @@ SurfaceList ReadWorld(ParameterReader* reader, const Directories& directories) {
                                 ": surfaces is set too; expected only one of them");
   }
   const fs::path path = (fs::path(directories.scenario) / scene).lexically_normal();
-  return {ReadSceneFile(path.string(), friction), {}};
+  SurfaceList world{ReadSceneFile(path.string(), friction), {}};
+  if (!reader->Has("motions")) return world;
+  world.motions = ReadMotions(reader->GetNode("motions"), "motions", world.objects);
+  for (const ObjectMotion& motion : world.motions) {
+    world.objects[static_cast<std::size_t>(motion.object)].X_WO = PoseAt(motion.keyframes, 0.0);
+  }
+  return world;
 }
 
 void CheckSetpoints(const Scenario& scenario, const YAML::Node& timeline) {
@@ -98,6 +107,7 @@ Scenario ReadDocument(const YAML::Node& root, const Directories& directories,
   const YAML::Node stop_after_loss = reader.GetNode("stop_after_loss");
   reader.GetNode("surfaces");
   reader.GetNode("scene");
+  reader.GetNode("motions");
   reader.GetNode("friction");
   scenario.object_output = reader.GetBool("object_output", false);
   reader.CheckNoUnknownKeys();  // first: a typo explains most of what follows

@@ -1,5 +1,6 @@
 #include "vacuum_gripper_sim/config/surface_list.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <optional>
 #include <set>
@@ -134,6 +135,31 @@ SurfaceList ReadObjects(const YAML::Node& node, const std::string& name, double 
     if (!motion.keyframes.empty()) list.motions.push_back(std::move(motion));
   }
   return list;
+}
+
+std::vector<ObjectMotion> ReadMotions(const YAML::Node& node, const std::string& path,
+                                      const std::vector<RigidObject>& objects) {
+  if (!node.IsMap()) {
+    throw std::invalid_argument(path + " = " + Describe(node) +
+                                "; expected a map from an object's name to keyframes");
+  }
+  std::vector<ObjectMotion> motions;
+  for (const auto& entry : node) {
+    const auto name = entry.first.as<std::string>();
+    const auto object =
+        std::find_if(objects.begin(), objects.end(),
+                     [&](const RigidObject& candidate) { return candidate.name == name; });
+    if (object == objects.end() || object->inertia) {
+      throw std::invalid_argument(path + "." + name + " is " +
+                                  (object == objects.end() ? "no object" : "free") +
+                                  "; expected the name of a fixed object of the scene");
+    }
+    ObjectMotion motion;
+    motion.object = static_cast<int>(object - objects.begin());
+    motion.keyframes = ReadMotion(entry.second, path + "." + name);
+    motions.push_back(std::move(motion));
+  }
+  return motions;
 }
 
 double ReadFriction(ParameterReader* reader, double default_value) {

@@ -34,6 +34,12 @@ struct SurfaceList {
  @throws std::invalid_argument naming the key, its value and what is allowed. */
 SurfaceList ReadObjects(const YAML::Node& node, const std::string& name, double friction);
 
+/** Reads the motions of objects: a map from an object's name to keyframes, see ReadMotion().
+ @param path Dotted path of the map, for messages.
+ @throws std::invalid_argument naming the object: unknown, or free. */
+std::vector<ObjectMotion> ReadMotions(const YAML::Node& node, const std::string& path,
+                                      const std::vector<RigidObject>& objects);
+
 /// The key `friction`. @throws std::invalid_argument naming it and its value if it is negative.
 double ReadFriction(ParameterReader* reader, double default_value);
 
