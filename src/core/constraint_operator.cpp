@@ -6,6 +6,14 @@
 #include <cstddef>
 
 namespace vacuum_gripper_sim {
+namespace {
+
+/// A body that lies on another is held by more forces than it has ways to move. Contacts that give
+/// way by this share of what the body does share its load; under its weight it sinks by h^2 g times
+/// that.
+constexpr double kBodyCompliance = 1e-7;
+
+}  // namespace
 
 using Eigen::Index;
 using Eigen::VectorXd;
@@ -76,9 +84,13 @@ void ConstraintOperator::AddColumns(const std::vector<Contact>& contacts) {
 void ConstraintOperator::SetRows(const std::vector<Contact>& contacts) {
   rows_.clear();
   num_rows_ = 0;
+  rows_between_bodies_.clear();
   for (const Contact& contact : contacts) {
     rows_.push_back({num_rows_, contact.friction});
-    num_rows_ += contact.friction > 0.0 ? 3 : 1;
+    const Index next = num_rows_ + (contact.friction > 0.0 ? 3 : 1);
+    for (; num_rows_ < next; ++num_rows_) {
+      if (contact.num_nodes == 0) rows_between_bodies_.push_back(num_rows_);
+    }
   }
   if (plain_) return;
 
@@ -131,6 +143,7 @@ void ConstraintOperator::UpdateW() {
     const auto J_b = J_.middleCols<6>(6 * static_cast<Index>(body));
     W_.noalias() += h_ * h_ * (J_b * bodies_[body].M_inverse).eval() * J_b.transpose();
   }
+  for (const Index row : rows_between_bodies_) W_(row, row) *= 1.0 + kBodyCompliance;
 }
 
 VectorXd ConstraintOperator::BodyVelocities(const VectorXd& b) const {

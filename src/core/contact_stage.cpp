@@ -289,6 +289,8 @@ bool ContactStage::SolveWithFactorization(const Impulse& impulse, ContactSolutio
     const bool passed = std::any_of(missed.begin(), missed.end(),
                                     [&](const Contact& contact) { return contact.gap < -bound; });
     if (!passed && solution->error <= bound) break;
+    // Forces with friction that were not found from here will not be found from a little further.
+    if (!solution->statistics.converged && operator_.plain() == nullptr) break;
 
     MeasureCandidates([&](std::uint64_t key) { return finder_.At(key, end); });
     for (Candidate& candidate : candidates_) candidate.applied = candidate.force;

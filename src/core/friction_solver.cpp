@@ -15,8 +15,9 @@ using Eigen::MatrixXd;
 using Eigen::Vector2d;
 using Eigen::VectorXd;
 
-/// Sweeps after a Newton step that failed.
-constexpr int kRescueSweeps = 20;
+/// Sweeps after the first Newton step that failed; twice as many after the next one, and so on.
+constexpr int kFirstRescue = 20;
+constexpr int kLargestRescue = 1280;
 /// Times that a Newton step may be halved.
 constexpr int kMaxHalvings = 4;
 
@@ -211,6 +212,7 @@ McpStatistics Newton(const FrictionProblem& problem, const ContactParameters& pa
   VectorXd best = *lambda;
   double best_residual = statistics.residual;
   bool first = true;
+  int rescue = kFirstRescue;
   while (statistics.residual > parameters.tolerance &&
          statistics.iterations < parameters.max_iterations) {
     const VectorXd step = problem.NewtonTarget(*lambda, end) - *lambda;
@@ -231,7 +233,8 @@ McpStatistics Newton(const FrictionProblem& problem, const ContactParameters& pa
     if (!(statistics.residual < start_residual)) {
       if (!std::isfinite(statistics.residual)) *lambda = start;
       end = problem.End(*lambda);
-      for (int sweep = 0; sweep < kRescueSweeps; ++sweep) problem.Sweep(1.0, lambda, &end);
+      for (int sweep = 0; sweep < rescue; ++sweep) problem.Sweep(1.0, lambda, &end);
+      rescue = std::min(2 * rescue, kLargestRescue);
       end = problem.End(*lambda);
       statistics.residual = problem.Residual(*lambda, end);
     }

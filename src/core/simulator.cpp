@@ -19,8 +19,8 @@
 namespace vacuum_gripper_sim {
 namespace {
 
-/// An object that was moved farther than this in one step is named if the step fails. [m]
-constexpr double kJump = 1e-3;
+/// An object that was put farther into the cup than this in one step has jumped there. [m]
+constexpr double kJump = 5e-3;
 
 /// The nodes of the whole boundary, ascending.
 std::vector<int> SurfaceNodes(const TetMesh& mesh) {
@@ -115,6 +115,7 @@ class Simulator::Implementation {
  private:
   Eigen::Matrix3Xd ClampedVelocityChange(const Eigen::Isometry3d& X_WM) const;
   bool Advance(const Command& command);
+  std::string DescribeJump() const;
   void ReportWrench(const SuctionSolution& solution, const Eigen::Matrix3Xd& dv_c);
   void ReportCavity(const SuctionSolution& solution);
   void ReportCavitySize();
@@ -186,6 +187,24 @@ void Simulator::Implementation::Step(const Command& command) {
   result_.time += parameters_.time_step;
 }
 
+/// Which object was put into the cup since the last step, so deep that no motion of a step answers
+/// it; empty if none was.
+std::string Simulator::Implementation::DescribeJump() const {
+  int object = 0;
+  const double jump = world_.LongestJump(&object);
+  if (jump < kJump) return {};
+  double deepest = 0.0;
+  for (const double distance : NearestDistances(world_.surfaces(), cavity_.nodes, state_.x_W)) {
+    deepest = std::min(deepest, distance);
+  }
+  if (deepest > -kJump) return {};
+  std::ostringstream message;
+  message << "object '" << world_.objects()[static_cast<std::size_t>(object)].name
+          << "' was moved by " << jump << " m in one step, " << -deepest
+          << " m into the cup; expected at most " << kJump << " m";
+  return message.str();
+}
+
 /// One step h, item by item as [Bernardin, Sec. III-A]. False: the result says why, undo it.
 bool Simulator::Implementation::Advance(const Command& command) {
   const double h = parameters_.time_step;
@@ -202,6 +221,9 @@ bool Simulator::Implementation::Advance(const Command& command) {
         command.pressure_setpoint >= parameters_.regulator.min_pressure)) {
     return fail(StepOutcome::kNonFinite, "the set-point is not in [regulator.min_pressure, 0] Pa");
   }
+
+  const std::string jump = DescribeJump();
+  if (!jump.empty()) return fail(StepOutcome::kUnconverged, jump);
 
   // 1) Free motion: equation (2) with lambda = 0.
   const Eigen::Matrix3Xd dv_c = ClampedVelocityChange(command.X_WM);
@@ -236,12 +258,6 @@ bool Simulator::Implementation::Advance(const Command& command) {
     std::ostringstream message;
     message << "contact error " << missed << " m is above contact.acceptable_residual = "
             << parameters_.contact.acceptable_residual << " m";
-    int jumped = 0;
-    const double jump = world_.LongestJump(&jumped);
-    if (jump > kJump) {
-      message << "; object '" << world_.objects()[static_cast<std::size_t>(jumped)].name
-              << "' was moved by " << jump << " m in one step";
-    }
     return fail(StepOutcome::kUnconverged, message.str());
   }
 

@@ -35,14 +35,18 @@ inline RigidObject Table(double friction,
   return FixedObject(plane);
 }
 
-/// The linear A20, pointing down, among objects.
+/// The A20, pointing down, among objects. The whole scene may be posed anywhere by X_AW.
 class GripWorld {
  public:
-  GripWorld(const std::vector<RigidObject>& objects, const Eigen::Vector3d& mount,
-            SimulatorParameters parameters, const std::string& bell = "linear_700")
-      : h_(parameters.time_step), simulator_(LoadBell(bell), parameters, Down(mount)) {
-    simulator_.SetObjects(objects);
-    X_WM_ = Down(mount);
+  GripWorld(std::vector<RigidObject> objects, const Eigen::Vector3d& mount,
+            SimulatorParameters parameters, const std::string& bell = "linear_700",
+            const Eigen::Isometry3d& X_AW = Eigen::Isometry3d::Identity())
+      : h_(parameters.time_step),
+        X_AW_(X_AW),
+        X_WM_(Down(mount)),
+        simulator_(LoadBell(bell), Turned(parameters, X_AW), X_AW * X_WM_) {
+    for (RigidObject& object : objects) object.X_WO = X_AW * object.X_WO;
+    simulator_.SetObjects(std::move(objects));
   }
 
   void MoveTo(const Eigen::Vector3d& mount, double speed, double setpoint) {
@@ -58,8 +62,13 @@ class GripWorld {
   void Wait(double time, double setpoint) {
     for (int i = 0; i < std::lround(time / h_); ++i) Step(setpoint);
   }
+  /// Turns the mount about its origin, about y of the world.
+  void Turn(double angle) {
+    X_WM_.linear() =
+        Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitY()).toRotationMatrix() * X_WM_.linear();
+  }
   void Step(double setpoint) {
-    simulator_.Step({X_WM_, setpoint});
+    simulator_.Step({X_AW_ * X_WM_, setpoint});
     undone_steps += result().outcome != StepOutcome::kOk ? 1 : 0;
     max_penetration = std::max(max_penetration, result().max_penetration);
     iterations = std::max(iterations, result().solver_iterations);
@@ -85,7 +94,12 @@ class GripWorld {
     X_WM.translation() = mount;
     return X_WM;
   }
+  static SimulatorParameters Turned(SimulatorParameters parameters, const Eigen::Isometry3d& X_AW) {
+    parameters.gravity = X_AW.linear() * parameters.gravity;
+    return parameters;
+  }
   double h_;
+  Eigen::Isometry3d X_AW_;
   Eigen::Isometry3d X_WM_;
   Simulator simulator_;
 };

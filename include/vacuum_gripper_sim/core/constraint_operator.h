@@ -82,6 +82,7 @@ class ConstraintOperator {
   bool plain_{true};
   Eigen::Index num_rows_{0};
   std::vector<ContactRows> rows_;
+  std::vector<Eigen::Index> rows_between_bodies_;
   Eigen::SparseMatrix<double, Eigen::RowMajor> H_;  // #rows by #columns
   Eigen::MatrixXd J_;                               // #rows by 6 #bodies
   Eigen::MatrixXd W_;
