@@ -37,12 +37,20 @@ World::World(const std::string& scene_description, const std::string& world_fram
 
 void World::Update(const tf2_ros::Buffer& tf, Simulator* simulator) {
   std::vector<bool> were_known;
-  bool link_is_new = false;
+  for (const PlacedLink& placed : links_) were_known.push_back(placed.known);
+  bool all_fixed_known = true;
   for (PlacedLink& placed : links_) {
-    were_known.push_back(placed.known);
-    if (placed.known && placed.is_free()) continue;  // what tf has is what this node said
+    if (placed.is_free()) continue;
     placed.known = LookUp(tf, &placed);
-    link_is_new = link_is_new || placed.known != were_known.back();
+    all_fixed_known = all_fixed_known && placed.known;
+  }
+  for (PlacedLink& placed : links_) {
+    // Of a known one tf has what this node said. A new one would fall past what is not there yet.
+    if (placed.is_free() && !placed.known && all_fixed_known) placed.known = LookUp(tf, &placed);
+  }
+  bool link_is_new = false;
+  for (std::size_t i = 0; i < links_.size(); ++i) {
+    link_is_new = link_is_new || links_[i].known != were_known[i];
   }
   if (link_is_new) {
     SetObjects(were_known, simulator);
@@ -116,7 +124,8 @@ bool World::LookUp(const tf2_ros::Buffer& tf, PlacedLink* placed) {
     if ((now - placed->missing).toSec() > kGrace && throttle_.Pass(frame)) {
       ROS_WARN("tf cannot place scene link '%s' in '%s' (%s): it %s", frame.c_str(),
                world_frame_.c_str(), error.what(),
-               placed->known ? "stays where it was last seen" : "is left out until tf can");
+               placed->known ? "stays where it was last seen"
+                             : "is left out until tf can, and so are free links");
     }
     return placed->known;
   }
