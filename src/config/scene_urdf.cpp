@@ -14,7 +14,8 @@
 namespace vacuum_gripper_sim {
 namespace {
 
-/// Keeps urdfdom's first complaint instead of printing it: the reason belongs into our one line.
+/// Keeps urdfdom's complaints instead of printing them: the reason belongs into our one line. The
+/// first says what, the later ones where.
 class ComplaintCatcher : public console_bridge::OutputHandler {
  public:
   ComplaintCatcher() { console_bridge::useOutputHandler(this); }
@@ -24,7 +25,8 @@ class ComplaintCatcher : public console_bridge::OutputHandler {
 
   void log(const std::string& text, console_bridge::LogLevel level, const char* /*file*/,
            int /*line*/) override {
-    if (complaint_.empty() && level >= console_bridge::CONSOLE_BRIDGE_LOG_ERROR) complaint_ = text;
+    if (level < console_bridge::CONSOLE_BRIDGE_LOG_ERROR) return;
+    complaint_ += (complaint_.empty() ? "" : "; ") + text;
   }
   const std::string& complaint() const { return complaint_; }
 
@@ -42,7 +44,8 @@ urdf::ModelInterfaceSharedPtr Parse(const std::string& xml) {
   } catch (const std::exception& e) {
     reason = e.what();
   }
-  if (model == nullptr) {
+  // A model comes even where links could not be read to their end.
+  if (model == nullptr || !reason.empty()) {
     throw std::invalid_argument("scene: not a valid URDF: " +
                                 (reason.empty() ? "no robot element" : reason));
   }

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 #include <yaml-cpp/yaml.h>
 
+#include <cmath>
+#include <cstdint>
 #include <sstream>
 
 namespace vacuum_gripper_sim {
@@ -83,6 +85,39 @@ TEST(ExperimentSummary, StepTimesByRank) {
   EXPECT_NEAR(accumulator.Summary().p99_step_ms, 99.0, 1e-9);
   accumulator.Add(At(0.0, 0.0, SealStatus::kOpen, 0.0, 1000.0));
   EXPECT_NEAR(accumulator.Summary().median_step_ms, 51.0, 1e-9);
+}
+
+TEST(ExperimentSummary, FollowsFreeObjectsAndAveragesEffort) {
+  std::vector<RigidObject> objects(2);
+  objects[1].name = "box";
+  objects[1].inertia = RigidInertia();
+  SummaryAccumulator accumulator(Down(0.0), objects, 0.01);
+  StepResult result;
+  result.objects.resize(2);
+  for (const double z : {0.1, 0.3, 0.2}) {
+    result.objects[1].X_WO.translation() = Eigen::Vector3d(1.0, 2.0, z);
+    result.objects[1].velocity_W = Eigen::Vector3d(0.0, 3.0, 4.0) * z;
+    result.friction_force = 1.0 - z;
+    result.num_contacts = 4;
+    result.num_candidates = static_cast<std::uint32_t>(std::lround(10.0 * z));
+    result.solver_iterations = 7;
+    accumulator.Add(result);
+  }
+  const ExperimentSummary summary = accumulator.Summary();
+  ASSERT_EQ(summary.free_objects.size(), 1U);
+  EXPECT_EQ(summary.free_objects[0].final_position, Eigen::Vector3d(1.0, 2.0, 0.2));
+  EXPECT_EQ(summary.free_objects[0].max_height, 0.3);
+  EXPECT_NEAR(summary.free_objects[0].max_speed, 1.5, 1e-12);
+  EXPECT_EQ(summary.max_friction, 0.9);
+  EXPECT_EQ(summary.mean_contacts, 4.0);
+  EXPECT_EQ(summary.mean_candidates, 2.0);
+  EXPECT_EQ(summary.mean_iterations, 7.0);
+
+  std::ostringstream text;
+  WriteSummary(summary, "s", &text);
+  const YAML::Node box = YAML::Load(text.str())["free_objects"]["box"];
+  EXPECT_EQ(box["final_position"][2].as<double>(), 0.2);
+  EXPECT_EQ(box["max_height"].as<double>(), 0.3);
 }
 
 TEST(ExperimentSummary, CountsUndoneStepsAndKeepsExtremes) {
