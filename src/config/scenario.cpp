@@ -47,7 +47,9 @@ SurfaceList ReadWorld(ParameterReader* reader, const Directories& directories) {
     if (reader->Has("motions")) {
       throw std::invalid_argument("motions is set without scene; expected motion in a surface");
     }
-    if (reader->Has("surfaces")) return ReadObjects(list, "surfaces", friction);
+    if (reader->Has("surfaces")) {
+      return ReadObjects(list, "surfaces", directories.scenario, friction);
+    }
     RigidSurface ground;
     ground.name = "ground";
     ground.shape = Plane{};

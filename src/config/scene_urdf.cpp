@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "scene_xml.h"
+#include "vacuum_gripper_sim/config/mesh_file.h"
 
 namespace vacuum_gripper_sim {
 namespace {
@@ -60,7 +61,7 @@ Eigen::Isometry3d ToIsometry(const urdf::Pose& pose) {
   return X;
 }
 
-Shape ToShape(const urdf::Geometry& geometry, const std::string& link) {
+Shape ToShape(const urdf::Geometry& geometry, const std::string& link, MeshFiles* meshes) {
   switch (geometry.type) {
     case urdf::Geometry::BOX: {
       const urdf::Vector3& dim = static_cast<const urdf::Box&>(geometry).dim;
@@ -72,10 +73,15 @@ Shape ToShape(const urdf::Geometry& geometry, const std::string& link) {
       const auto& cylinder = static_cast<const urdf::Cylinder&>(geometry);
       return Cylinder{cylinder.radius, cylinder.length};
     }
+    case urdf::Geometry::MESH: {
+      const auto& mesh = static_cast<const urdf::Mesh&>(geometry);
+      return meshes->Load("scene: link " + link + ": mesh filename", mesh.filename,
+                          {mesh.scale.x, mesh.scale.y, mesh.scale.z});
+    }
     default:
       throw std::invalid_argument("scene: link " + link +
-                                  ": a collision mesh is not supported; expected box, sphere or "
-                                  "cylinder");
+                                  ": unknown collision geometry; expected box, sphere, cylinder "
+                                  "or mesh");
   }
 }
 
@@ -84,6 +90,7 @@ struct Scene {
   urdf::ModelInterfaceSharedPtr model;
   const SceneXml& xml;
   double friction;  // where the URDF says none
+  MeshFiles* meshes;
 };
 
 [[noreturn]] void Refuse(const std::string& link, const std::string& reason) {
@@ -94,11 +101,12 @@ std::vector<RigidSurface> ReadSurfaces(const Scene& scene, const urdf::Link& lin
   std::vector<RigidSurface> surfaces;
   for (const urdf::CollisionSharedPtr& collision : link.collision_array) {
     if (collision == nullptr || collision->geometry == nullptr) {
-      Refuse(link.name, "a collision element without geometry; expected box, sphere or cylinder");
+      Refuse(link.name,
+             "a collision element without geometry; expected box, sphere, cylinder or mesh");
     }
     RigidSurface surface;
     surface.name = link.name;
-    surface.shape = ToShape(*collision->geometry, link.name);
+    surface.shape = ToShape(*collision->geometry, link.name, scene.meshes);
     surface.X_FS = ToIsometry(collision->origin);
     surface.friction = scene.xml.Friction(link.name, surfaces.size()).value_or(scene.friction);
     surfaces.push_back(std::move(surface));
@@ -177,23 +185,28 @@ void Collect(const Scene& scene, const urdf::Link& link, const Eigen::Isometry3d
 
 }  // namespace
 
-std::vector<SceneLink> ReadSceneLinks(const std::string& xml, double friction) {
+std::vector<SceneLink> ReadSceneLinks(const std::string& xml, const std::string& directory,
+                                      double friction) {
   const SceneXml scene_xml(xml);
   scene_xml.CheckTree();  // urdfdom leaves a cycle out and says nothing
-  const Scene scene{Parse(xml), scene_xml, friction};
+  MeshFiles meshes(directory);
+  const Scene scene{Parse(xml), scene_xml, friction, &meshes};
   std::vector<SceneLink> links;
   Collect(scene, *scene.model->getRoot(), Eigen::Isometry3d::Identity(), nullptr, &links);
   if (links.empty()) {
     throw std::invalid_argument("scene: robot " + scene.model->getName() +
-                                " has no collision geometry; expected at least one box, sphere or "
-                                "cylinder");
+                                " has no collision geometry; expected at least one box, sphere, "
+                                "cylinder or mesh");
   }
   return links;
 }
 
-std::vector<RigidObject> ReadSceneUrdf(const std::string& xml, double friction) {
+std::vector<RigidObject> ReadSceneUrdf(const std::string& xml, const std::string& directory,
+                                       double friction) {
   std::vector<RigidObject> objects;
-  for (SceneLink& link : ReadSceneLinks(xml, friction)) objects.push_back(std::move(link.object));
+  for (SceneLink& link : ReadSceneLinks(xml, directory, friction)) {
+    objects.push_back(std::move(link.object));
+  }
   return objects;
 }
 

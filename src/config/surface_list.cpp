@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <filesystem>
 #include <optional>
 #include <set>
 #include <stdexcept>
 #include <utility>
 
 #include "solid_inertia.h"
+#include "vacuum_gripper_sim/config/mesh_file.h"
 #include "vacuum_gripper_sim/config/parameter_reader.h"
 #include "vacuum_gripper_sim/config/scene_urdf.h"
 #include "vacuum_gripper_sim/config/yaml_file.h"
@@ -25,9 +27,10 @@ double ReadLength(ParameterReader* reader, const std::string& key) {
   return length;
 }
 
-Shape ReadShape(ParameterReader* reader) {
+Shape ReadShape(ParameterReader* reader, MeshFiles* meshes) {
   reader->GetString("type");  // required: no shape is a good guess
-  const std::string type = reader->GetChoice("type", {"plane", "box", "sphere", "cylinder"}, "");
+  const std::string type =
+      reader->GetChoice("type", {"plane", "box", "sphere", "cylinder", "mesh"}, "");
   if (type == "box") {
     const Eigen::Vector3d size = reader->GetVector3("size");
     if (size.minCoeff() <= 0.0) {
@@ -40,6 +43,11 @@ Shape ReadShape(ParameterReader* reader) {
   if (type == "cylinder") {
     const double radius = ReadLength(reader, "radius");
     return Cylinder{radius, ReadLength(reader, "length")};
+  }
+  if (type == "mesh") {
+    const std::string file = reader->GetString("file");
+    return meshes->Load(reader->Name("file"), file,
+                        reader->GetVector3("scale", Eigen::Vector3d::Ones()));
   }
   return Plane{};
 }
@@ -67,7 +75,7 @@ std::optional<RigidInertia> ReadInertia(ParameterReader* reader, const Shape& sh
   inertia.mass = mass;
   if (std::holds_alternative<Plane>(shape)) {
     throw std::invalid_argument(reader->Name("mass") +
-                                " is set for a plane; expected a box, sphere or cylinder");
+                                " is set for a plane; expected a box, sphere, cylinder or mesh");
   }
   if (reader->Has("inertia")) {
     inertia.about_C_O = reader->GetVector3("inertia").asDiagonal();
@@ -102,10 +110,12 @@ Eigen::Isometry3d ReadPose(ParameterReader* reader, std::vector<Keyframe>* motio
 
 }  // namespace
 
-SurfaceList ReadObjects(const YAML::Node& node, const std::string& name, double friction) {
+SurfaceList ReadObjects(const YAML::Node& node, const std::string& name,
+                        const std::string& directory, double friction) {
   if (!node.IsSequence()) {
     throw std::invalid_argument(name + " = " + Describe(node) + "; expected a list of surfaces");
   }
+  MeshFiles meshes(directory);
   SurfaceList list;
   std::set<std::string> names;
   for (std::size_t i = 0; i < node.size(); ++i) {
@@ -117,7 +127,7 @@ SurfaceList ReadObjects(const YAML::Node& node, const std::string& name, double 
       throw std::invalid_argument(path + ".name = " + surface.name +
                                   " is that of another surface; expected a name of its own");
     }
-    surface.shape = ReadShape(&reader);
+    surface.shape = ReadShape(&reader, &meshes);
     surface.friction = ReadFriction(&reader, friction);
     RigidObject object = FixedObject(std::move(surface));
     object.inertia = ReadInertia(&reader, object.surfaces.front().shape);
@@ -170,8 +180,9 @@ double ReadFriction(ParameterReader* reader, double default_value) {
 }
 
 std::vector<RigidObject> ReadSceneFile(const std::string& path, double friction) {
+  const std::string directory = std::filesystem::absolute(path).parent_path().string();
   try {
-    return ReadSceneUrdf(ReadTextFile(path), friction);
+    return ReadSceneUrdf(ReadTextFile(path), directory, friction);
   } catch (const std::invalid_argument& e) {
     const std::string reason = e.what();
     if (reason.find(path) != std::string::npos) throw;

@@ -5,6 +5,8 @@
 #include <limits>
 #include <variant>
 
+#include "vacuum_gripper_sim/core/triangle_mesh.h"
+
 namespace vacuum_gripper_sim {
 namespace {
 
@@ -58,6 +60,14 @@ std::vector<Feeler> Feelers(const Cylinder& cylinder, const Vector3d& into) {
                           side * cylinder.length},
                          0.0});
     }
+  }
+  return feelers;
+}
+
+std::vector<Feeler> Feelers(const Mesh& mesh, const Vector3d& /*into*/) {
+  std::vector<Feeler> feelers;
+  for (Eigen::Index i = 0; i < mesh->vertices().cols(); ++i) {
+    feelers.push_back({mesh->vertices().col(i), 0.0});
   }
   return feelers;
 }

@@ -3,8 +3,26 @@
 #include <algorithm>
 #include <cstddef>
 #include <limits>
+#include <variant>
 
 namespace vacuum_gripper_sim {
+namespace {
+
+/// Nodes farther from a mesh than this when a step begins need not know how far. [m]
+constexpr double kReach = 0.01;
+
+bool IsMesh(const RigidSurface& surface) { return std::holds_alternative<Mesh>(surface.shape); }
+
+Eigen::Vector3d InShape(const RigidSurface& surface, const Eigen::Vector3d& p_F) {
+  return surface.X_FS.linear().transpose() * (p_F - surface.X_FS.translation());
+}
+
+SurfaceDistance InFrame(const RigidSurface& surface, SurfaceDistance seen) {
+  seen.normal = surface.X_FS.linear() * seen.normal;
+  return seen;
+}
+
+}  // namespace
 
 std::vector<double> NearestDistances(const std::vector<RigidSurface>& surfaces,
                                      const std::vector<int>& nodes, const Eigen::Matrix3Xd& x_W) {
@@ -23,11 +41,46 @@ void NarrowPhase::Begin(const std::vector<RigidSurface>& surfaces, const std::ve
   nodes_ = nodes;
   x0_W_ = x0_W;
   seen_.clear();
+  const bool any_mesh = std::any_of(surfaces.begin(), surfaces.end(), IsMesh);
+  if (any_mesh) sightings_.resize(nodes.size() * surfaces.size());
   for (const int node : nodes) {
     for (const RigidSurface& surface : surfaces) {
-      seen_.push_back(Distance(surface, x0_W.col(node)));
+      const Eigen::Vector3d p_W = x0_W.col(node);
+      if (IsMesh(surface)) {
+        const SurfaceDistance seen =
+            sightings_[seen_.size()].BeginStep(surface.shape, InShape(surface, p_W), kReach);
+        seen_.push_back(InFrame(surface, seen));
+      } else {
+        seen_.push_back(Distance(surface, p_W));
+      }
     }
   }
+}
+
+SurfaceDistance NarrowPhase::Look(std::size_t pair, const RigidSurface& surface,
+                                  const Eigen::Vector3d& p_W) {
+  if (!IsMesh(surface)) return Distance(surface, p_W);
+  return InFrame(surface, sightings_[pair].Look(surface.shape, InShape(surface, p_W)));
+}
+
+NodeContact NarrowPhase::At(int pair, const std::vector<RigidSurface>& surfaces,
+                            const Eigen::Matrix3Xd& x1_W) {
+  const SurfaceDistance seen =
+      Look(static_cast<std::size_t>(pair), surfaces[static_cast<std::size_t>(surface(pair))],
+           x1_W.col(node(pair)));
+  return {node(pair), surface(pair), seen.distance, seen.normal};
+}
+
+std::vector<double> NarrowPhase::Nearest(const std::vector<RigidSurface>& surfaces,
+                                         const Eigen::Matrix3Xd& x1_W) {
+  std::vector<double> nearest(nodes_.size(), std::numeric_limits<double>::infinity());
+  std::size_t pair = 0;
+  for (std::size_t i = 0; i < nodes_.size(); ++i) {
+    for (const RigidSurface& surface : surfaces) {
+      nearest[i] = std::min(nearest[i], Look(pair++, surface, x1_W.col(nodes_[i])).distance);
+    }
+  }
+  return nearest;
 }
 
 NodeContact NarrowPhase::Ahead(int pair, const Eigen::Matrix3Xd& x1_W) const {

@@ -1,12 +1,16 @@
 #include "vacuum_gripper_sim/core/contact_finder.h"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace vacuum_gripper_sim {
 namespace {
 
 /// Objects farther apart than this when a step begins do not meet during it. [m]
 constexpr double kBodyReach = 0.02;
+/// Edges farther from the cup than this do not meet it. [m]
+constexpr double kFaceReach = 3e-3;
 
 /// The axis that is most across a normal.
 Eigen::Vector3d Across(const Eigen::Vector3d& normal) {
@@ -22,6 +26,7 @@ void ContactFinder::Begin(const RigidWorld& world, const Eigen::Matrix3Xd& x0_W,
   x0_W_ = x0_W;
   h_ = h;
   narrow_phase_.Begin(world.surfaces(), nodes_, x0_W);
+  face_contacts_.Begin(world, x0_W, kFaceReach);
   body_contacts_.Begin(world, kBodyReach);
 }
 
@@ -34,6 +39,20 @@ double ContactFinder::NodeGap(int pair, const TrialEnd& end) const {
     gap -= seen.normal.dot(world_->Displacement(object, p_W, end.dV, h_));
   }
   return gap;
+}
+
+double ContactFinder::FaceGap(const FaceContacts::Pair& pair, const TrialEnd& end) const {
+  Eigen::Vector3d of_face_W = Eigen::Vector3d::Zero();
+  for (int k = 0; k < 3; ++k) {
+    const int node = pair.seen.nodes[static_cast<std::size_t>(k)];
+    of_face_W += pair.seen.weights(k) * (end.x_W.col(node) - x0_W_.col(node));
+  }
+  const int object = world_->ObjectOf(pair.surface);
+  Eigen::Vector3d of_edge_W = Eigen::Vector3d::Zero();
+  if (world_->BodyOf(object) != RigidWorld::kNone) {
+    of_edge_W = world_->Displacement(object, pair.p_W, end.dV, h_);
+  }
+  return pair.seen.distance + pair.seen.normal_W.dot(of_edge_W - of_face_W);
 }
 
 double ContactFinder::BodyGap(const BodyContacts::Pair& pair, const TrialEnd& end) const {
@@ -73,6 +92,27 @@ Contact ContactFinder::NodeAgainst(int pair, const SurfaceDistance& seen, double
   return contact;
 }
 
+Contact ContactFinder::FaceAgainst(const FaceContacts::Pair& pair, const CupFacePoint& seen,
+                                   double gap, const TrialEnd& end) const {
+  Contact contact;
+  contact.key = FaceKey(pair);
+  contact.num_nodes = 3;
+  Eigen::Vector3d of_face_W = Eigen::Vector3d::Zero();
+  for (std::size_t k = 0; k < 3; ++k) {
+    contact.nodes[k] = seen.nodes[k];
+    contact.weights[k] = seen.weights(static_cast<Eigen::Index>(k));
+    of_face_W += contact.weights[k] * (end.x_W.col(seen.nodes[k]) - x0_W_.col(seen.nodes[k]));
+  }
+  contact.object = world_->ObjectOf(pair.surface);
+  contact.p_W = pair.p_W;
+  contact.normal = -seen.normal_W;
+  contact.across = Across(pair.seen.normal_W);
+  contact.gap = gap;
+  contact.friction = world_->surfaces()[static_cast<std::size_t>(pair.surface)].friction;
+  contact.slip_W = of_face_W - world_->Displacement(contact.object, pair.p_W, end.dV, h_);
+  return contact;
+}
+
 Contact ContactFinder::BodyAgainst(const BodyContacts::Pair& pair, const SurfaceDistance& seen,
                                    double gap, const TrialEnd& end) const {
   Contact contact;
@@ -92,6 +132,11 @@ Contact ContactFinder::BodyAgainst(const BodyContacts::Pair& pair, const Surface
 }
 
 Contact ContactFinder::Ahead(std::uint64_t key, const TrialEnd& end) const {
+  if (key >= kFaceKeys && key < kBodyKeys) {
+    const FaceContacts::Pair& pair =
+        face_contacts_.Find(static_cast<std::uint32_t>(key - kFaceKeys));
+    return FaceAgainst(pair, pair.seen, FaceGap(pair, end), end);
+  }
   if (key >= kBodyKeys) {
     const BodyContacts::Pair& pair =
         body_contacts_.Find(static_cast<std::uint32_t>(key - kBodyKeys));
@@ -101,7 +146,19 @@ Contact ContactFinder::Ahead(std::uint64_t key, const TrialEnd& end) const {
   return NodeAgainst(pair, narrow_phase_.seen(pair), NodeGap(pair, end), end);
 }
 
-Contact ContactFinder::At(std::uint64_t key, const TrialEnd& end) const {
+Contact ContactFinder::At(std::uint64_t key, const TrialEnd& end) {
+  if (key >= kFaceKeys && key < kBodyKeys) {
+    const FaceContacts::Pair& pair =
+        face_contacts_.Find(static_cast<std::uint32_t>(key - kFaceKeys));
+    Eigen::Vector3d p_W = pair.p_W;
+    const int object = world_->ObjectOf(pair.surface);
+    if (world_->BodyOf(object) != RigidWorld::kNone) {
+      p_W += world_->Displacement(object, pair.p_W, end.dV, h_);
+    }
+    const std::optional<CupFacePoint> seen = face_contacts_.faces().Nearest(p_W, 2.0 * kFaceReach);
+    if (seen) return FaceAgainst(pair, *seen, seen->distance, end);
+    return FaceAgainst(pair, pair.seen, kFaceReach, end);
+  }
   if (key >= kBodyKeys) {
     const BodyContacts::Pair& pair =
         body_contacts_.Find(static_cast<std::uint32_t>(key - kBodyKeys));
@@ -115,10 +172,23 @@ Contact ContactFinder::At(std::uint64_t key, const TrialEnd& end) const {
     return BodyAgainst(pair, seen, seen.distance - pair.radius, end);
   }
   const auto pair = static_cast<int>(key);
-  const SurfaceDistance seen =
-      Distance((*end.surfaces)[static_cast<std::size_t>(narrow_phase_.surface(pair))],
-               end.x_W.col(narrow_phase_.node(pair)));
-  return NodeAgainst(pair, seen, seen.distance, end);
+  const NodeContact there = narrow_phase_.At(pair, *end.surfaces, end.x_W);
+  return NodeAgainst(pair, {there.gap, there.normal}, there.gap, end);
+}
+
+int ContactFinder::NearestSurface(int node) const {
+  const auto place = std::lower_bound(nodes_.begin(), nodes_.end(), node) - nodes_.begin();
+  const auto num_surfaces = static_cast<int>(world_->surfaces().size());
+  int nearest = 0;
+  double nearest_distance = std::numeric_limits<double>::infinity();
+  for (int surface = 0; surface < num_surfaces; ++surface) {
+    const double distance =
+        narrow_phase_.seen(static_cast<int>(place) * num_surfaces + surface).distance;
+    if (distance >= nearest_distance) continue;
+    nearest_distance = distance;
+    nearest = surface;
+  }
+  return nearest;
 }
 
 }  // namespace vacuum_gripper_sim

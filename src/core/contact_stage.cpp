@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <iterator>
 #include <limits>
 #include <utility>
 
@@ -23,27 +22,31 @@ constexpr int kMaxPasses = 24;
 /// An earlier factorisation that needs more is renewed.
 constexpr int kMaxStalePasses = 8;
 
-std::vector<int> FreeNodes(const std::vector<int>& nodes, const ImplicitEuler& system) {
-  std::vector<int> free;
-  std::copy_if(nodes.begin(), nodes.end(), std::back_inserter(free),
-               [&](int node) { return system.FreeRow(node) >= 0; });
+std::vector<bool> AreFree(const std::vector<int>& nodes, const ImplicitEuler& system) {
+  std::vector<bool> free;
+  for (const int node : nodes) free.push_back(system.FreeRow(node) >= 0);
   return free;
 }
 
 }  // namespace
 
-ContactStage::ContactStage(const ImplicitEuler& system, LinearSolver* solver,
+ContactStage::ContactStage(const TetMesh& mesh, const ImplicitEuler& system, LinearSolver* solver,
                            std::vector<int> surface_nodes, const ContactParameters& parameters)
     : system_(&system),
       solver_(solver),
       surface_nodes_(std::move(surface_nodes)),
       parameters_(parameters),
-      finder_(FreeNodes(surface_nodes_, system)),
+      finder_(mesh, surface_nodes_, AreFree(surface_nodes_, system)),
       operator_(system) {}
 
 void ContactStage::ForgetForces() {
   warm_starts_.clear();
   candidates_of_ = kNoFactorization;
+}
+
+void ContactStage::ForgetWorld() {
+  ForgetForces();
+  finder_.Forget();
 }
 
 void ContactStage::Begin(const RigidWorld& world, const Eigen::Matrix3Xd& x,
@@ -222,18 +225,10 @@ bool ContactStage::Solve(const Eigen::Matrix3Xd& load, ContactSolution* solution
 /// The cavity's air pushes on the object before a point of the cup as hard as on that point.
 void ContactStage::LoadObjects(const Eigen::Matrix3Xd& load) {
   pressure_on_.assign(world_->objects().size(), ObjectLoad());
-  const std::vector<RigidSurface>& surfaces = world_->surfaces();
-  if (surfaces.empty()) return;
+  if (world_->surfaces().empty()) return;
   for (Index node = 0; node < load.cols(); ++node) {
     if (load.col(node).isZero(0.0)) continue;
-    int nearest = 0;
-    double nearest_distance = std::numeric_limits<double>::infinity();
-    for (std::size_t i = 0; surfaces.size() > 1 && i < surfaces.size(); ++i) {
-      const double distance = Distance(surfaces[i], x0_.col(node)).distance;
-      if (distance >= nearest_distance) continue;
-      nearest_distance = distance;
-      nearest = static_cast<int>(i);
-    }
+    const int nearest = finder_.NearestSurface(static_cast<int>(node));
     const auto object = static_cast<std::size_t>(world_->ObjectOf(nearest));
     const Vector3d arm = x0_.col(node) - world_->objects()[object].X_WO.translation();
     pressure_on_[object].force_W -= load.col(node);
@@ -299,8 +294,9 @@ bool ContactStage::SolveWithFactorization(const Impulse& impulse, ContactSolutio
   return true;
 }
 
-void ContactStage::MeasureEnd(const TrialEnd& end, ContactSolution* solution) const {
-  const std::vector<double> nearest = NearestDistances(*end.surfaces, surface_nodes_, end.x_W);
+void ContactStage::MeasureEnd(const TrialEnd& end, ContactSolution* solution) {
+  finder_.MoveTo(end);
+  const std::vector<double> nearest = finder_.Nearest(end);
   solution->distance.assign(static_cast<std::size_t>(x0_.cols()),
                             std::numeric_limits<double>::infinity());
   double deepest = 0.0;
@@ -313,14 +309,16 @@ void ContactStage::MeasureEnd(const TrialEnd& end, ContactSolution* solution) co
   solution->error = -deepest;
   for (std::size_t i = 0; i < candidates_.size(); ++i) {
     const Candidate& candidate = candidates_[i];
-    double error = 0.0;
-    if (candidate.force.x() > 0.0) {
-      error = std::abs(finder_.At(candidate.contact.key, end).gap);
-    } else {  // refined forces may pull
-      const Index row = operator_.rows()[i].normal;
-      error = -candidate.force.x() * operator_.W()(row, row);
+    const bool is_node = candidate.contact.num_nodes == 1;  // measured above
+    const bool is_loaded = candidate.force.x() > 0.0;
+    if (is_loaded || !is_node) {
+      const double gap = finder_.At(candidate.contact.key, end).gap;
+      solution->error = std::max(solution->error, is_loaded ? std::abs(gap) : -gap);
     }
-    solution->error = std::max(solution->error, error);
+    if (!is_loaded) {  // refined forces may pull
+      const Index row = operator_.rows()[i].normal;
+      solution->error = std::max(solution->error, -candidate.force.x() * operator_.W()(row, row));
+    }
   }
 }
 

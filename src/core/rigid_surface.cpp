@@ -5,6 +5,8 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "vacuum_gripper_sim/core/triangle_mesh.h"
+
 namespace vacuum_gripper_sim {
 namespace {
 
@@ -54,6 +56,11 @@ SurfaceDistance DistanceInFrame(const Cylinder& cylinder, const Eigen::Vector3d&
   return {distance, direction.x() * radial + direction.y() * axial};
 }
 
+SurfaceDistance DistanceInFrame(const Mesh& mesh, const Eigen::Vector3d& p) {
+  const MeshPoint point = mesh->SeenFrom(1, *mesh->Nearest(p));
+  return {point.distance, point.normal};
+}
+
 void RequirePositive(const std::string& name, const char* field, double value) {
   if (std::isfinite(value) && value > 0.0) return;
   std::ostringstream message;
@@ -75,14 +82,20 @@ void ValidateShape(const std::string& name, const Cylinder& cylinder) {
   RequirePositive(name, "radius", cylinder.radius);
   RequirePositive(name, "length", cylinder.length);
 }
+void ValidateShape(const std::string& name, const Mesh& mesh) {
+  if (mesh == nullptr) throw std::invalid_argument("surface '" + name + "': mesh is not set");
+}
 
 }  // namespace
+
+SurfaceDistance Distance(const Shape& shape, const Eigen::Vector3d& p_S) {
+  return std::visit([&](const auto& kind) { return DistanceInFrame(kind, p_S); }, shape);
+}
 
 SurfaceDistance Distance(const RigidSurface& surface, const Eigen::Vector3d& p_F) {
   const Eigen::Matrix3d R_FS = surface.X_FS.linear();
   const Eigen::Vector3d p_S = R_FS.transpose() * (p_F - surface.X_FS.translation());
-  SurfaceDistance result =
-      std::visit([&](const auto& shape) { return DistanceInFrame(shape, p_S); }, surface.shape);
+  SurfaceDistance result = Distance(surface.shape, p_S);
   result.normal = R_FS * result.normal;
   return result;
 }

@@ -91,7 +91,7 @@ class Simulator::Implementation {
         body_(mesh_, parameters.material),
         system_(body_, mesh_.mount_nodes),
         solver_(parameters.linear_solver, system_.A_ff()),
-        stage_(system_, &solver_, SurfaceNodes(mesh_), parameters.contact),
+        stage_(mesh_, system_, &solver_, SurfaceNodes(mesh_), parameters.contact),
         suction_(cavity_, parameters_.seal, parameters.regulator,
                  parameters.material.young_modulus) {
     Reset(X_WM);
@@ -132,7 +132,7 @@ class Simulator::Implementation {
 
 void Simulator::Implementation::SetObjects(std::vector<RigidObject> objects) {
   world_.SetObjects(std::move(objects));
-  stage_.ForgetForces();  // they were numbered by the old surfaces
+  stage_.ForgetWorld();
   ReportObjects(std::vector<ObjectLoad>(world_.objects().size()));
 }
 
@@ -140,7 +140,7 @@ void Simulator::Implementation::Reset(const Eigen::Isometry3d& X_WM) {
   state_.x_W = X_WM * rest_M_;
   state_.v_W = Eigen::Matrix3Xd::Zero(3, rest_M_.cols());
   state_.grip = GripState();
-  stage_.ForgetForces();
+  stage_.ForgetWorld();
 
   const double time = result_.time;
   result_ = StepResult();

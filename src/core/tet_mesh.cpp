@@ -287,4 +287,16 @@ TetMesh MakeTetMesh(std::string source, Matrix3Xd nodes, MatrixXi elements,
   return Builder(std::move(mesh)).Build(cavity_faces, mount_faces);
 }
 
+Eigen::Matrix3Xi SplitFaces(const MatrixXi& faces) {
+  if (faces.rows() == 3) return faces;
+  constexpr int kParts[4][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}, {3, 4, 5}};
+  Eigen::Matrix3Xi triangles(3, 4 * faces.cols());
+  for (Eigen::Index f = 0; f < faces.cols(); ++f) {
+    for (int part = 0; part < 4; ++part) {
+      for (int k = 0; k < 3; ++k) triangles(k, 4 * f + part) = faces(kParts[part][k], f);
+    }
+  }
+  return triangles;
+}
+
 }  // namespace vacuum_gripper_sim

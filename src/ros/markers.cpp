@@ -63,19 +63,6 @@ Marker MakeMarker(const std_msgs::Header& header, const std::string& name, int t
   return marker;
 }
 
-// A 6-node face is drawn as four triangles, like the cavity surface.
-Eigen::Matrix3Xi SplitFaces(const Eigen::MatrixXi& faces) {
-  if (faces.rows() == 3) return faces;
-  constexpr int kParts[4][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}, {3, 4, 5}};
-  Eigen::Matrix3Xi triangles(3, 4 * faces.cols());
-  for (Eigen::Index f = 0; f < faces.cols(); ++f) {
-    for (int part = 0; part < 4; ++part) {
-      for (int k = 0; k < 3; ++k) triangles(k, 4 * f + part) = faces(kParts[part][k], f);
-    }
-  }
-  return triangles;
-}
-
 std::array<int, 3> SortedCorners(const Eigen::Matrix3Xi& triangles, Eigen::Index t) {
   std::array<int, 3> corners{{triangles(0, t), triangles(1, t), triangles(2, t)}};
   std::sort(corners.begin(), corners.end());

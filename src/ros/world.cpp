@@ -26,7 +26,7 @@ World::World(const std::string& scene_description, const std::string& world_fram
     ground.object.name = world_frame;
     links.push_back(std::move(ground));
   } else {
-    links = ReadSceneLinks(scene_description, friction);
+    links = ReadSceneLinks(scene_description, "", friction);
   }
   for (SceneLink& link : links) {
     PlacedLink placed;

@@ -18,7 +18,7 @@ std::string Link(const std::string& name, const std::string& geometry) {
 
 std::string Error(const std::string& xml) {
   testing::internal::CaptureStderr();
-  const std::string error = ErrorOf([&] { ReadSceneUrdf(xml, 0.0); });
+  const std::string error = ErrorOf([&] { ReadSceneUrdf(xml); });
   EXPECT_EQ(testing::internal::GetCapturedStderr(), "") << "the parser's own words must not show";
   return error;
 }
@@ -33,8 +33,7 @@ TEST(SceneUrdf, ReadsShapesAndPoses) {
             "<geometry><box size=\"1 2 3\"/></geometry></collision>"
             "<collision><geometry><sphere radius=\"0.25\"/></geometry></collision>"
             "<collision><geometry><cylinder radius=\"0.5\" length=\"2\"/></geometry></collision>"
-            "</link>"),
-      0.0);
+            "</link>"));
   ASSERT_EQ(links.size(), 1U);  // the world has no surface
   const RigidObject& table = links[0];
   EXPECT_EQ(table.name, "table");
@@ -92,7 +91,7 @@ TEST(SceneUrdf, FrictionOfTheElementThenOfGazeboThenTheDefault) {
       Robot("<link name=\"table\">" + std::string(kBall) + "<friction mu=\"0.3\"/></collision>" +
             kBall + "</collision></link>" + Joint("table", "cloth", "fixed") + Ball("cloth") +
             "<gazebo reference=\"table\"><mu1>0.7</mu1><mu2>0.9</mu2></gazebo>");
-  const std::vector<RigidObject> links = ReadSceneUrdf(xml, 0.2);
+  const std::vector<RigidObject> links = ReadSceneUrdf(xml, "", 0.2);
   ASSERT_EQ(links.size(), 2U);
   EXPECT_EQ(links[0].surfaces[0].friction, 0.3);
   EXPECT_EQ(links[0].surfaces[1].friction, 0.7);
@@ -116,7 +115,7 @@ TEST(SceneUrdf, FloatingLinksAreFree) {
             Joint("lid", "ball", "floating", "0 0.5 0") +
             Ball("ball", "",
                  Inertial("0.2", "1e-3", "xyz=\"0.01 0 0\" rpy=\"0 0 1.5707963267948966\""))),
-      0.0);
+      "", 0.0);
   ASSERT_EQ(links.size(), 3U);
   EXPECT_FALSE(links[0].object.inertia || links[1].object.inertia);
   EXPECT_EQ(links[0].parent, "");

@@ -11,4 +11,10 @@ namespace vacuum_gripper_sim {
  @throws std::runtime_error when neither holds them. */
 std::string ShareDirectory();
 
+/** The directory of any ROS package, as `package://` means it: of this one its ShareDirectory(); of
+ another `share/<name>` below an entry of CMAKE_PREFIX_PATH (as an installed package is), or else a
+ folder below an entry of ROS_PACKAGE_PATH whose package.xml has that name.
+ @returns an empty string if there is none. */
+std::string PackageDirectory(const std::string& name);
+
 }  // namespace vacuum_gripper_sim

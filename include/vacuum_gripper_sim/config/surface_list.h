@@ -24,15 +24,17 @@ struct SurfaceList {
 };
 
 /** Reads a list of rigid objects in the world, each a map of `name`, `type` (plane, box, sphere,
- cylinder), its dimensions (`size` [x, y, z] of a box, `radius`, `length` of a cylinder) [m],
- `friction` [-], and either `position` [m] (default: the origin) and `rotation` (default: none), or
- `motion`, see ReadMotion(). With `mass` [kg] it is free, its centre of mass in the middle,
- `inertia` [Ixx, Iyy, Izz] [kg m^2] about it is that of a uniform solid if not set, and `velocity`
- [m/s] at first none.
+ cylinder, mesh), its dimensions (`size` [x, y, z] of a box, `radius`, `length` of a cylinder) [m]
+ or its `file` and `scale` (see MeshFiles), `friction` [-], and either `position` [m] (default: the
+ origin) and `rotation` (default: none), or `motion`, see ReadMotion(). With `mass` [kg] it is free,
+ its centre of mass in the middle, `inertia` [Ixx, Iyy, Izz] [kg m^2] about it is that of a uniform
+ solid if not set (a mesh must say), and `velocity` [m/s] at first none.
  @param name Dotted path of the list, for messages.
+ @param directory Where relative paths of meshes start.
  @param friction Of those that do not say. [-]
  @throws std::invalid_argument naming the key, its value and what is allowed. */
-SurfaceList ReadObjects(const YAML::Node& node, const std::string& name, double friction);
+SurfaceList ReadObjects(const YAML::Node& node, const std::string& name,
+                        const std::string& directory, double friction = 0.0);
 
 /** Reads the motions of objects: a map from an object's name to keyframes, see ReadMotion().
  @param path Dotted path of the map, for messages.
@@ -46,6 +48,6 @@ double ReadFriction(ParameterReader* reader, double default_value);
 /// Reads a URDF's collision geometry, its links where the joints at zero put them and its root link
 /// at the world's origin. @throws std::invalid_argument naming the file and the reason.
 /// @param friction Of links that do not say. [-]
-std::vector<RigidObject> ReadSceneFile(const std::string& path, double friction);
+std::vector<RigidObject> ReadSceneFile(const std::string& path, double friction = 0.0);
 
 }  // namespace vacuum_gripper_sim

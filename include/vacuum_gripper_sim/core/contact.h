@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "vacuum_gripper_sim/core/rigid_surface.h"
+#include "vacuum_gripper_sim/core/surface_sighting.h"
 
 namespace vacuum_gripper_sim {
 
@@ -28,13 +29,17 @@ std::vector<double> NearestDistances(const std::vector<RigidSurface>& surfaces,
 
      gap(x1) = d(x0) + n(x0) . (x1 - x0),
 
- which is exact for planes and faces; curved surfaces are measured anew near their contact. */
+ which is exact for planes and faces; curved surfaces are measured anew near their contact. What a
+ node sees of a triangle mesh is remembered from step to step, see SurfaceSighting. */
 class NarrowPhase {
  public:
   /// @param surfaces Must outlive this. @param nodes Mesh nodes to watch, ascending.
   /// @param x0_W Positions at the step's start, 3 by #nodes. [m]
   void Begin(const std::vector<RigidSurface>& surfaces, const std::vector<int>& nodes,
              const Eigen::Matrix3Xd& x0_W);
+
+  /// Forgets what nodes saw before, as when they or the surfaces are other ones.
+  void Forget() { sightings_.clear(); }
 
   /// The pairs, with their gap at x1, of which `wanted` is true. Nodes ascending.
   template <typename Predicate>
@@ -55,12 +60,20 @@ class NarrowPhase {
   const SurfaceDistance& seen(int pair) const { return seen_[static_cast<std::size_t>(pair)]; }
   /// The pair with its gap at x1, seen from its start.
   NodeContact Ahead(int pair, const Eigen::Matrix3Xd& x1_W) const;
+  /// The pair measured at x1. @param surfaces Where they are then.
+  NodeContact At(int pair, const std::vector<RigidSurface>& surfaces, const Eigen::Matrix3Xd& x1_W);
+  /// Of each watched node at x1 to the surface nearest to it; +inf without surfaces. [m]
+  std::vector<double> Nearest(const std::vector<RigidSurface>& surfaces,
+                              const Eigen::Matrix3Xd& x1_W);
 
  private:
+  SurfaceDistance Look(std::size_t pair, const RigidSurface& surface, const Eigen::Vector3d& p_W);
+
   const std::vector<RigidSurface>* surfaces_{nullptr};
   std::vector<int> nodes_;
   Eigen::Matrix3Xd x0_W_;
   std::vector<SurfaceDistance> seen_;
+  std::vector<SurfaceSighting> sightings_;  // by pair, if any surface is a mesh
 };
 
 }  // namespace vacuum_gripper_sim

@@ -2,12 +2,14 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <utility>
 #include <vector>
 
 #include "vacuum_gripper_sim/core/body_contacts.h"
 #include "vacuum_gripper_sim/core/contact.h"
+#include "vacuum_gripper_sim/core/face_contacts.h"
 #include "vacuum_gripper_sim/core/rigid_world.h"
 
 namespace vacuum_gripper_sim {
@@ -40,14 +42,23 @@ struct TrialEnd {
   const std::vector<RigidSurface>* surfaces{nullptr};  ///< Where they are then, in the world.
 };
 
-/** Finds what touches: the cup's nodes and the objects, the objects among each other.
+/** Finds what touches: the cup's nodes and the objects, the objects' edges and the cup's faces, the
+ objects among each other.
 
  Gaps are measured along the normal seen when the step begins (Ahead), see NarrowPhase, or anew
  where a trial ends (At). Friction between two objects is the geometric mean of theirs. */
 class ContactFinder {
  public:
-  /// @param nodes That may touch objects, ascending.
-  explicit ContactFinder(std::vector<int> nodes) : nodes_(std::move(nodes)) {}
+  /// @param mesh The cup at rest. @param nodes To be measured, ascending.
+  /// @param may_touch Which of them objects may touch.
+  ContactFinder(const TetMesh& mesh, std::vector<int> nodes, std::vector<bool> may_touch)
+      : nodes_(std::move(nodes)), may_touch_(std::move(may_touch)), face_contacts_(mesh) {}
+
+  /// Forgets what the last step saw, as when there are other objects.
+  void Forget() {
+    narrow_phase_.Forget();
+    face_contacts_.Forget();
+  }
 
   /// Starts a step. @param world Must outlive it. @param x0_W All nodes, 3 by #nodes. [m]
   /// @param h Time step. [s]
@@ -59,7 +70,11 @@ class ContactFinder {
   std::vector<Contact> Select(const TrialEnd& end, const Predicate& wanted) const {
     std::vector<Contact> contacts;
     for (int i = 0; i < narrow_phase_.num_pairs(); ++i) {
+      if (!may_touch_[PlaceOf(i)]) continue;
       if (wanted(NodeKey(i), NodeGap(i, end))) contacts.push_back(Ahead(NodeKey(i), end));
+    }
+    for (const FaceContacts::Pair& pair : face_contacts_.pairs()) {
+      if (wanted(FaceKey(pair), FaceGap(pair, end))) contacts.push_back(Ahead(FaceKey(pair), end));
     }
     for (const BodyContacts::Pair& pair : body_contacts_.pairs()) {
       if (wanted(BodyKey(pair), BodyGap(pair, end))) contacts.push_back(Ahead(BodyKey(pair), end));
@@ -68,25 +83,46 @@ class ContactFinder {
   }
 
   Contact Ahead(std::uint64_t key, const TrialEnd& end) const;
-  Contact At(std::uint64_t key, const TrialEnd& end) const;
+  Contact At(std::uint64_t key, const TrialEnd& end);
+
+  /// Before At() and Nearest() of another trial.
+  void MoveTo(const TrialEnd& end) {
+    if (!face_contacts_.pairs().empty()) face_contacts_.MoveTo(end.x_W);
+  }
+  /// Of each node to the surface nearest to it at a trial's end; +inf without surfaces. [m]
+  std::vector<double> Nearest(const TrialEnd& end) {
+    return narrow_phase_.Nearest(*end.surfaces, end.x_W);
+  }
+  /// The surface that is nearest to a node when the step begins.
+  int NearestSurface(int node) const;
 
  private:
   // A key is the pair's number in its detector, and which one that is.
-  static constexpr std::uint64_t kBodyKeys = std::uint64_t{1} << 40;
+  static constexpr std::uint64_t kFaceKeys = std::uint64_t{1} << 40;
+  static constexpr std::uint64_t kBodyKeys = std::uint64_t{2} << 40;
   static std::uint64_t NodeKey(int pair) { return static_cast<std::uint64_t>(pair); }
+  static std::uint64_t FaceKey(const FaceContacts::Pair& pair) { return kFaceKeys + pair.id; }
   static std::uint64_t BodyKey(const BodyContacts::Pair& pair) { return kBodyKeys + pair.id; }
 
+  std::size_t PlaceOf(int pair) const {
+    return static_cast<std::size_t>(pair) / world_->surfaces().size();
+  }
   double NodeGap(int pair, const TrialEnd& end) const;
+  double FaceGap(const FaceContacts::Pair& pair, const TrialEnd& end) const;
   double BodyGap(const BodyContacts::Pair& pair, const TrialEnd& end) const;
   Contact NodeAgainst(int pair, const SurfaceDistance& seen, double gap, const TrialEnd& end) const;
+  Contact FaceAgainst(const FaceContacts::Pair& pair, const CupFacePoint& seen, double gap,
+                      const TrialEnd& end) const;
   Contact BodyAgainst(const BodyContacts::Pair& pair, const SurfaceDistance& seen, double gap,
                       const TrialEnd& end) const;
 
   std::vector<int> nodes_;
+  std::vector<bool> may_touch_;
   const RigidWorld* world_{nullptr};
   Eigen::Matrix3Xd x0_W_;
   double h_{0.0};
   NarrowPhase narrow_phase_;
+  FaceContacts face_contacts_;
   BodyContacts body_contacts_;
 };
 

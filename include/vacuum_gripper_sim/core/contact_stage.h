@@ -61,10 +61,11 @@ struct ContactSolution {
  held, and checked for forces that pull too. Friction and free bodies want the current one. */
 class ContactStage {
  public:
-  /** @param surface_nodes Nodes of the cup's surface, ascending. The clamped ones are measured, but
-     never in contact: the mount's motion is prescribed. All references must outlive this. */
-  ContactStage(const ImplicitEuler& system, LinearSolver* solver, std::vector<int> surface_nodes,
-               const ContactParameters& parameters);
+  /** @param mesh The cup at rest. @param surface_nodes Nodes of the cup's surface, ascending. The
+     clamped ones are measured, but never in contact: the mount's motion is prescribed. All
+     references must outlive this. */
+  ContactStage(const TetMesh& mesh, const ImplicitEuler& system, LinearSolver* solver,
+               std::vector<int> surface_nodes, const ContactParameters& parameters);
 
   /** Starts a step; forgets the last one's candidates unless its factorisation stays.
    @param world Must outlive the step. @param x,v State at the step's start, 3 by #nodes.
@@ -83,8 +84,10 @@ class ContactStage {
    @returns false if A is not positive definite. */
   bool Solve(const Eigen::Matrix3Xd& load, ContactSolution* solution, StepTimings* timings);
 
-  /// Forgets the warm start, as after a reset.
+  /// Forgets the warm start, as after a step that was undone.
   void ForgetForces();
+  /// Forgets what was seen of the objects, too, as when there are others or the cup is elsewhere.
+  void ForgetWorld();
 
  private:
   /// A contact with its unknown: the force along normal and tangents, see ConstraintOperator.
@@ -115,7 +118,7 @@ class ContactStage {
   Eigen::VectorXd Stacked(Eigen::Vector3d Candidate::*values) const;
   void SetForces(const Eigen::VectorXd& lambda);
   void LoadObjects(const Eigen::Matrix3Xd& load);
-  void MeasureEnd(const TrialEnd& end, ContactSolution* solution) const;
+  void MeasureEnd(const TrialEnd& end, ContactSolution* solution);
   void Report(ContactSolution* solution) const;
 
   const ImplicitEuler* system_;

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <memory>
 #include <string>
 #include <variant>
 
@@ -26,7 +27,11 @@ struct Cylinder {
   double length{0.0};  ///< [m]
 };
 
-using Shape = std::variant<Plane, Box, Sphere, Cylinder>;
+/// Triangles in S, shared by all surfaces that show them: a solid or, if open, a sheet.
+class TriangleMesh;
+using Mesh = std::shared_ptr<const TriangleMesh>;
+
+using Shape = std::variant<Plane, Box, Sphere, Cylinder, Mesh>;
 
 /// A rigid surface in a frame F: that of the object it is fixed to, or the world where it is
 /// placed.
@@ -46,17 +51,21 @@ struct SurfaceDistance {
 /** Signed distance of a point to a surface and the direction out of it.
 
  Exact inside and outside. Where the nearest point is not unique (a sphere's centre, a box's middle)
- one of the directions is returned, always a unit vector.
+ one of the directions is returned, always a unit vector. Of an open mesh the side from which its
+ triangles are counter-clockwise is outside; see SurfaceSighting for the other one.
 
  @param p_F The point. [m] */
 SurfaceDistance Distance(const RigidSurface& surface, const Eigen::Vector3d& p_F);
+
+/// The same in the shape's own frame S, normal included.
+SurfaceDistance Distance(const Shape& shape, const Eigen::Vector3d& p_S);
 
 /// Is X finite and its linear part a rotation (within 1e-6)?
 bool IsRigidMotion(const Eigen::Isometry3d& X);
 
 /** Checks a surface's numbers.
  @throws std::invalid_argument naming the surface, the field, its value and what is allowed: sizes
-   finite and > 0, friction finite and >= 0, the pose finite and a rotation. */
+   finite and > 0, a mesh there, friction finite and >= 0, the pose finite and a rotation. */
 void Validate(const RigidSurface& surface);
 
 }  // namespace vacuum_gripper_sim

@@ -46,4 +46,9 @@ struct TetMesh {
 TetMesh MakeTetMesh(std::string source, Eigen::Matrix3Xd nodes, Eigen::MatrixXi elements,
                     const Eigen::MatrixXi& cavity_faces, const Eigen::MatrixXi& mount_faces);
 
+/// Boundary faces as triangles: each 6-node face becomes four, wound as the face. 3-node faces
+/// stay.
+/// @param faces 3 or 6 by #faces. @returns 3 by #triangles.
+Eigen::Matrix3Xi SplitFaces(const Eigen::MatrixXi& faces);
+
 }  // namespace vacuum_gripper_sim
