@@ -73,6 +73,14 @@ TEST(Scenes, ABallHangsFromATurnedCup) {
   EXPECT_NEAR(std::acos(-turned.X_WM.linear()(2, 2)), M_PI / 3.0, 1e-9);
 }
 
+TEST(Scenes, AScannedThingIsLiftedByItsTop) {
+  const Played run = Play("scan");
+  EXPECT_TRUE(run.summary.sealed_at);
+  EXPECT_FALSE(run.summary.lost_at);
+  EXPECT_GT(run.summary.free_objects.at(0).max_height, 0.1);
+  EXPECT_LT(run.summary.free_objects.at(0).final_position.z(), 0.0335);  // on its feet again
+}
+
 TEST(Scenes, OverAnEdgeNothingSeals) {
   const Played run = Play("edge");
   EXPECT_FALSE(run.summary.sealed_at);

@@ -40,6 +40,9 @@ class ScenesTest(unittest.TestCase):
     def test_ball(self):
         self.assertTrue(self.play('ball')['sealed'])
 
+    def test_scan(self):
+        self.assertTrue(self.play('scan')['sealed'])
+
     def test_edge(self):
         self.assertFalse(self.play('edge')['sealed'])
 
