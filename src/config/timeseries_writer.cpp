@@ -19,7 +19,8 @@ TimeseriesWriter::TimeseriesWriter(std::ostream* stream) : stream_(stream) {
   *stream_ << "time,mount_x,mount_y,mount_z,setpoint,pressure,status,force_x,force_y,force_z,"
               "torque_x,torque_y,torque_z,contacts,cavity_area,contact_force,iterations,residual,"
               "step_ms,bottleneck_gap,cavity_volume,candidates,max_penetration,zone_0,zone_1,"
-              "zone_2,zone_3,zone_4,linear_iterations,factorizations,outcome,friction_force\n";
+              "zone_2,zone_3,zone_4,linear_iterations,factorizations,outcome,"
+              "opening_azimuth,opening_width,opening_gap,friction_force\n";
 }
 
 void TimeseriesWriter::Write(const StepResult& r) {
@@ -35,7 +36,8 @@ void TimeseriesWriter::Write(const StepResult& r) {
     << r.max_penetration;
   for (const std::uint32_t count : r.classification.zone_counts) s << ',' << count;
   s << ',' << r.linear_iterations << ',' << r.factorizations << ',' << static_cast<int>(r.outcome)
-    << ',' << r.friction_force << '\n';
+    << ',' << r.opening.azimuth << ',' << r.opening.width << ',' << r.opening.largest_gap << ','
+    << r.friction_force << '\n';
 }
 
 }  // namespace vacuum_gripper_sim

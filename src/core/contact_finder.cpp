@@ -55,6 +55,15 @@ double ContactFinder::FaceGap(const FaceContacts::Pair& pair, const TrialEnd& en
   return pair.seen.distance + pair.seen.normal_W.dot(of_edge_W - of_face_W);
 }
 
+double ContactFinder::FoldGap(const FoldContact& fold, const TrialEnd& end) const {
+  Eigen::Vector3d relative_W = end.x_W.col(fold.node) - x0_W_.col(fold.node);
+  for (int k = 0; k < 3; ++k) {
+    const int node = fold.face[static_cast<std::size_t>(k)];
+    relative_W -= fold.weights(k) * (end.x_W.col(node) - x0_W_.col(node));
+  }
+  return fold.gap + fold.normal.dot(relative_W);
+}
+
 double ContactFinder::BodyGap(const BodyContacts::Pair& pair, const TrialEnd& end) const {
   const Eigen::Vector3d& n = pair.seen.normal;
   const Eigen::Vector3d p_W = pair.p_W - pair.radius * n;
@@ -113,6 +122,25 @@ Contact ContactFinder::FaceAgainst(const FaceContacts::Pair& pair, const CupFace
   return contact;
 }
 
+/// @param fold As the step began. @param seen The same at the end.
+Contact ContactFinder::FoldAgainst(const FoldContact& fold, const FoldContact& seen,
+                                   double gap) const {
+  Contact contact;
+  contact.key = FoldKey(fold);
+  contact.num_nodes = 4;
+  contact.nodes[0] = fold.node;
+  contact.weights[0] = 1.0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    contact.nodes[k + 1] = seen.face[k];
+    contact.weights[k + 1] = -seen.weights(static_cast<Eigen::Index>(k));
+  }
+  contact.p_W = x0_W_.col(fold.node);
+  contact.normal = seen.normal;
+  contact.across = Across(fold.normal);
+  contact.gap = gap;
+  return contact;
+}
+
 Contact ContactFinder::BodyAgainst(const BodyContacts::Pair& pair, const SurfaceDistance& seen,
                                    double gap, const TrialEnd& end) const {
   Contact contact;
@@ -132,7 +160,11 @@ Contact ContactFinder::BodyAgainst(const BodyContacts::Pair& pair, const Surface
 }
 
 Contact ContactFinder::Ahead(std::uint64_t key, const TrialEnd& end) const {
-  if (key >= kFaceKeys && key < kBodyKeys) {
+  if (key >= kFoldKeys && key < kBodyKeys) {
+    const FoldContact& fold = face_contacts_.FoldOf(static_cast<int>(key - kFoldKeys));
+    return FoldAgainst(fold, fold, FoldGap(fold, end));
+  }
+  if (key >= kFaceKeys && key < kFoldKeys) {
     const FaceContacts::Pair& pair =
         face_contacts_.Find(static_cast<std::uint32_t>(key - kFaceKeys));
     return FaceAgainst(pair, pair.seen, FaceGap(pair, end), end);
@@ -147,7 +179,12 @@ Contact ContactFinder::Ahead(std::uint64_t key, const TrialEnd& end) const {
 }
 
 Contact ContactFinder::At(std::uint64_t key, const TrialEnd& end) {
-  if (key >= kFaceKeys && key < kBodyKeys) {
+  if (key >= kFoldKeys && key < kBodyKeys) {
+    const FoldContact& fold = face_contacts_.FoldOf(static_cast<int>(key - kFoldKeys));
+    const FoldContact seen = SelfContact::At(fold, face_contacts_.faces(), end.x_W);
+    return FoldAgainst(fold, seen, seen.gap);
+  }
+  if (key >= kFaceKeys && key < kFoldKeys) {
     const FaceContacts::Pair& pair =
         face_contacts_.Find(static_cast<std::uint32_t>(key - kFaceKeys));
     Eigen::Vector3d p_W = pair.p_W;

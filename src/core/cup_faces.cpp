@@ -45,6 +45,13 @@ void CupFaces::Consider(int face, const Eigen::Vector3d& p_W, Candidate* best) c
   *best = {face, at};
 }
 
+CupFacePoint CupFaces::On(int face, const Eigen::Vector3d& p_W) const {
+  Candidate only;
+  only.at.squared_distance = std::numeric_limits<double>::infinity();
+  Consider(face, p_W, &only);
+  return Describe(only, p_W);
+}
+
 CupFacePoint CupFaces::Describe(const Candidate& nearest, const Eigen::Vector3d& p_W) const {
   CupFacePoint result;
   result.face = nearest.face;

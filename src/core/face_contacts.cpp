@@ -20,25 +20,26 @@ void FaceContacts::Begin(const RigidWorld& world, const Eigen::Matrix3Xd& x_W, d
       features_.push_back(SharpFeatures(surface.shape, kSpacing));
     }
   }
-  Eigen::AlignedBox3d around;
-  bool moved = false;
+  faces_.Update(x_W);
+  folds_ = self_contact_.Find(faces_, x_W, reach);
+  const Eigen::AlignedBox3d around(Eigen::Vector3d(faces_.bounds_W().min().array() - reach),
+                                   Eigen::Vector3d(faces_.bounds_W().max().array() + reach));
   std::uint32_t id = 0;
   for (std::size_t i = 0; i < surfaces.size(); ++i) {
-    if (!features_[i].empty() && around.isEmpty()) {
-      around = Eigen::AlignedBox3d(Eigen::Vector3d(x_W.rowwise().minCoeff().array() - reach),
-                                   Eigen::Vector3d(x_W.rowwise().maxCoeff().array() + reach));
-    }
     for (const FeaturePoint& feature : features_[i]) {
       const std::uint32_t this_id = id++;
       const Eigen::Vector3d p_W = surfaces[i].X_FS * feature.p_S;
       if (!around.contains(p_W)) continue;
-      if (!moved) faces_.Update(x_W);
-      moved = true;
       const std::optional<CupFacePoint> seen = faces_.Nearest(p_W, reach);
-      if (!seen) continue;
-      pairs_.push_back({this_id, static_cast<int>(i), p_W, *seen});
+      if (seen) pairs_.push_back({this_id, static_cast<int>(i), p_W, *seen});
     }
   }
+}
+
+const FoldContact& FaceContacts::FoldOf(int node) const {
+  return *std::lower_bound(
+      folds_.begin(), folds_.end(), node,
+      [](const FoldContact& contact, int value) { return contact.node < value; });
 }
 
 const FaceContacts::Pair& FaceContacts::Find(std::uint32_t id) const {

@@ -118,6 +118,7 @@ class Simulator::Implementation {
   std::string DescribeJump() const;
   void ReportWrench(const SuctionSolution& solution, const Eigen::Matrix3Xd& dv_c);
   void ReportCavity(const SuctionSolution& solution);
+  void ReportOpening();
   void ReportCavitySize();
   void ReportObjects(const std::vector<ObjectLoad>& loads);
 
@@ -152,6 +153,7 @@ void Simulator::Implementation::Reset(const Eigen::Isometry3d& X_WM) {
   result_.gap = distance;
   result_.classification = Classify(cavity_, distance, *parameters_.seal.open_gap);
   result_.bottleneck_gap = result_.classification.bottleneck_gap;
+  ReportOpening();
   ReportCavitySize();
   ReportObjects(std::vector<ObjectLoad>(world_.objects().size()));
 }
@@ -309,6 +311,7 @@ void Simulator::Implementation::ReportCavity(const SuctionSolution& solution) {
   for (std::size_t i = 0; i < cavity_.nodes.size(); ++i) {
     result_.gap[i] = solution.contact.distance[static_cast<std::size_t>(cavity_.nodes[i])];
   }
+  ReportOpening();
   ReportCavitySize();
   result_.contact_force = solution.contact.lambda.sum();
   result_.friction_force = solution.contact.friction_force;
@@ -333,6 +336,11 @@ void Simulator::Implementation::ReportObjects(const std::vector<ObjectLoad>& loa
     object.velocity_W = V.head<3>() + object.angular_velocity_W.cross(object.X_WO.translation() -
                                                                       world_.CentreOfMass(body));
   }
+}
+
+void Simulator::Implementation::ReportOpening() {
+  result_.opening = FindSealOpening(cavity_, result_.gap, result_.bottleneck_gap,
+                                    *parameters_.seal.open_gap, state_.x_W, result_.X_WM);
 }
 
 /// Area and volume of what the pressure acts on if the cavity is sealed.

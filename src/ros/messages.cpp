@@ -63,6 +63,9 @@ SealState ToSealState(const StepResult& result, const std_msgs::Header& header) 
   std::copy(result.classification.zone_counts.begin(), result.classification.zone_counts.end(),
             message.zone_counts.begin());
   message.bottleneck_gap = result.bottleneck_gap;
+  message.opening_azimuth = result.opening.azimuth;
+  message.opening_width = result.opening.width;
+  message.opening_gap = result.opening.largest_gap;
   return message;
 }
 

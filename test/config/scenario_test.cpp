@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <map>
 
 #include "config_test_tools.h"
 
@@ -243,16 +244,21 @@ TEST(ShippedScenarios, AreValid) {
     EXPECT_EQ(ErrorOf([&] { ReadScenario(entry.path().string(), {}, share); }), "(no error)")
         << entry.path();
   }
-  EXPECT_GE(count, 5);
+  EXPECT_GE(count, 7);
 }
 
 TEST(ShippedCups, AreValid) {
   const std::string cups = std::string(VACUUM_GRIPPER_SOURCE_DIR) + "/config/cups";
-  for (const char* name : {"a20", "a20_linear", "a30", "a30_linear"}) {
-    const Cup cup = ReadCup(YAML::Node(name), cups, cups);
-    EXPECT_EQ(cup.name, name);
-    EXPECT_EQ(cup.material.young_modulus, name[1] == '2' ? 338000.0 : 593000.0);
-    EXPECT_EQ(cup.damping.stiffness, RayleighDamping{}.stiffness);
+  const std::map<std::string, double> young_moduli{
+      {"a20", 338000.0}, {"a30", 593000.0}, {"flat_25", 2460000.0}, {"bellows_25", 2460000.0}};
+  for (const auto& [kind, young_modulus] : young_moduli) {
+    for (const std::string& name : {kind, kind + "_linear"}) {
+      const Cup cup = ReadCup(YAML::Node(name), cups, cups);
+      EXPECT_EQ(cup.name, name);
+      EXPECT_TRUE(std::filesystem::exists(cup.mesh_file)) << cup.mesh_file;
+      EXPECT_EQ(cup.material.young_modulus, young_modulus);
+      EXPECT_EQ(cup.damping.stiffness, RayleighDamping{}.stiffness);
+    }
   }
 }
 

@@ -1,4 +1,4 @@
-// The meshes of the package, read as they are.
+// The bells' meshes of the package, read as they are.
 
 #include <gtest/gtest.h>
 
@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "support/mesh_volume.h"
 #include "vacuum_gripper_sim/core/cavity_surface.h"
 #include "vacuum_gripper_sim/core/gmsh_reader.h"
 
@@ -47,45 +48,21 @@ double BellVolume() {
   return shell + bead + stem;
 }
 
-// Exact for straight elements and, with the 5-point rule of degree 3, for the cubic Jacobian of
-// quadratic ones. [m^3]
-double Volume(const TetMesh& mesh) {
-  static constexpr int kEdges[6][2] = {{0, 1}, {1, 2}, {2, 0}, {0, 3}, {1, 3}, {2, 3}};
-  double volume = 0.0;
-  for (int e = 0; e < mesh.num_elements(); ++e) {
-    for (int sample = 0; sample < 5; ++sample) {
-      Eigen::Vector4d l = Eigen::Vector4d::Constant(sample == 4 ? 0.25 : 1.0 / 6.0);
-      if (sample < 4) l(sample) = 0.5;
-      Eigen::Matrix<double, 3, 4> dx = Eigen::Matrix<double, 3, 4>::Zero();
-      for (int k = 0; k < 4; ++k) {
-        const double slope = mesh.quadratic() ? 4.0 * l(k) - 1.0 : 1.0;
-        dx.col(k) += slope * mesh.nodes.col(mesh.elements(k, e));
-      }
-      for (int k = 0; mesh.quadratic() && k < 6; ++k) {
-        const Vector3d x = mesh.nodes.col(mesh.elements(4 + k, e));
-        dx.col(kEdges[k][0]) += 4.0 * l(kEdges[k][1]) * x;
-        dx.col(kEdges[k][1]) += 4.0 * l(kEdges[k][0]) * x;
-      }
-      const Eigen::Matrix3d J = dx.rightCols<3>().colwise() - dx.col(0);
-      volume += J.determinant() / 6.0 * (sample == 4 ? -0.8 : 0.45);
-    }
-  }
-  return volume;
-}
-
-std::vector<std::string> MeshFiles() {
+/// The bells among the meshes of the package.
+std::vector<std::string> BellFiles() {
   std::vector<std::string> files;
   for (const auto& entry :
        std::filesystem::directory_iterator(VACUUM_GRIPPER_SOURCE_DIR "/meshes")) {
-    if (entry.path().extension() == ".msh") files.push_back(entry.path().string());
+    const bool bell = entry.path().filename().string().rfind("bell_", 0) == 0;
+    if (bell && entry.path().extension() == ".msh") files.push_back(entry.path().string());
   }
   std::sort(files.begin(), files.end());
   return files;
 }
 
-class CupMeshTest : public ::testing::TestWithParam<std::string> {};
+class BellMeshTest : public ::testing::TestWithParam<std::string> {};
 
-TEST_P(CupMeshTest, IsReadInTime) {
+TEST_P(BellMeshTest, IsReadInTime) {
   const auto start = std::chrono::steady_clock::now();
   const TetMesh mesh = ReadGmsh(GetParam());
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
@@ -95,7 +72,7 @@ TEST_P(CupMeshTest, IsReadInTime) {
 
 // Straight edges cut corners with an error of h^2, quadratic ones of h^4; h^3 goes with 1 /
 // #elements.
-TEST_P(CupMeshTest, HasTheVolumeOfTheBell) {
+TEST_P(BellMeshTest, HasTheVolumeOfTheBell) {
   const TetMesh mesh = ReadGmsh(GetParam());
   const double size = 1.0 / std::cbrt(mesh.num_elements());
   const double error = 1.0 - Volume(mesh) / BellVolume();
@@ -103,7 +80,7 @@ TEST_P(CupMeshTest, HasTheVolumeOfTheBell) {
   EXPECT_LT(error, mesh.quadratic() ? 3.0 * std::pow(size, 4) : 4.0 * std::pow(size, 2));
 }
 
-TEST_P(CupMeshTest, HasItsSurfacesWhereTheBellHasThem) {
+TEST_P(BellMeshTest, HasItsSurfacesWhereTheBellHasThem) {
   const TetMesh mesh = ReadGmsh(GetParam());
   EXPECT_NEAR(mesh.nodes.row(2).minCoeff(), 0.0, 1e-15);
   for (const int node : mesh.mount_nodes) EXPECT_NEAR(mesh.nodes(2, node), kTop, 1e-10);
@@ -123,7 +100,7 @@ TEST_P(CupMeshTest, HasItsSurfacesWhereTheBellHasThem) {
   EXPECT_GE(lowest, mesh.quadratic() ? 40 : 20);
 }
 
-TEST_P(CupMeshTest, HasOneRimAndItsPortAtTheApex) {
+TEST_P(BellMeshTest, HasOneRimAndItsPortAtTheApex) {
   const TetMesh mesh = ReadGmsh(GetParam());
   const CavitySurface surface = MakeCavitySurface(mesh);
   // The rim is where the bead meets the dome's outer face.
@@ -140,7 +117,7 @@ TEST_P(CupMeshTest, HasOneRimAndItsPortAtTheApex) {
 }
 
 // The nodes of the rim are a regular polygon in one plane: the area vectors add up to its area.
-TEST_P(CupMeshTest, HasAVerticalAreaVectorOfTheRimsSize) {
+TEST_P(BellMeshTest, HasAVerticalAreaVectorOfTheRimsSize) {
   const TetMesh mesh = ReadGmsh(GetParam());
   const CavitySurface surface = MakeCavitySurface(mesh);
   std::vector<Vector3d> rim;
@@ -163,14 +140,14 @@ TEST_P(CupMeshTest, HasAVerticalAreaVectorOfTheRimsSize) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(AllFiles, CupMeshTest, ::testing::ValuesIn(MeshFiles()),
+INSTANTIATE_TEST_SUITE_P(AllFiles, BellMeshTest, ::testing::ValuesIn(BellFiles()),
                          [](const ::testing::TestParamInfo<std::string>& file) {
                            return std::filesystem::path(file.param).stem().string();
                          });
 
-TEST(CupMeshes, AreThere) { EXPECT_GE(MeshFiles().size(), 5u); }
+TEST(BellMeshes, AreThere) { EXPECT_GE(BellFiles().size(), 5u); }
 
-TEST(CupMeshes, LinearAndQuadraticShareTheirSkeleton) {
+TEST(BellMeshes, LinearAndQuadraticShareTheirSkeleton) {
   for (const std::string size : {"700", "3000"}) {
     const std::string folder = VACUUM_GRIPPER_SOURCE_DIR "/meshes/";
     const TetMesh linear = ReadGmsh(folder + "bell_linear_" + size + ".msh");

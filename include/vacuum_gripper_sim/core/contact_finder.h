@@ -43,10 +43,11 @@ struct TrialEnd {
 };
 
 /** Finds what touches: the cup's nodes and the objects, the objects' edges and the cup's faces, the
- objects among each other.
+ cup's folds, the objects among each other.
 
  Gaps are measured along the normal seen when the step begins (Ahead), see NarrowPhase, or anew
- where a trial ends (At). Friction between two objects is the geometric mean of theirs. */
+ where a trial ends (At). Folds slide without friction; that between two objects is the geometric
+ mean of theirs. */
 class ContactFinder {
  public:
   /// @param mesh The cup at rest. @param nodes To be measured, ascending.
@@ -76,6 +77,9 @@ class ContactFinder {
     for (const FaceContacts::Pair& pair : face_contacts_.pairs()) {
       if (wanted(FaceKey(pair), FaceGap(pair, end))) contacts.push_back(Ahead(FaceKey(pair), end));
     }
+    for (const FoldContact& fold : face_contacts_.folds()) {
+      if (wanted(FoldKey(fold), FoldGap(fold, end))) contacts.push_back(Ahead(FoldKey(fold), end));
+    }
     for (const BodyContacts::Pair& pair : body_contacts_.pairs()) {
       if (wanted(BodyKey(pair), BodyGap(pair, end))) contacts.push_back(Ahead(BodyKey(pair), end));
     }
@@ -87,7 +91,9 @@ class ContactFinder {
 
   /// Before At() and Nearest() of another trial.
   void MoveTo(const TrialEnd& end) {
-    if (!face_contacts_.pairs().empty()) face_contacts_.MoveTo(end.x_W);
+    if (!face_contacts_.pairs().empty() || !face_contacts_.folds().empty()) {
+      face_contacts_.MoveTo(end.x_W);
+    }
   }
   /// Of each node to the surface nearest to it at a trial's end; +inf without surfaces. [m]
   std::vector<double> Nearest(const TrialEnd& end) {
@@ -99,9 +105,13 @@ class ContactFinder {
  private:
   // A key is the pair's number in its detector, and which one that is.
   static constexpr std::uint64_t kFaceKeys = std::uint64_t{1} << 40;
-  static constexpr std::uint64_t kBodyKeys = std::uint64_t{2} << 40;
+  static constexpr std::uint64_t kFoldKeys = std::uint64_t{2} << 40;
+  static constexpr std::uint64_t kBodyKeys = std::uint64_t{3} << 40;
   static std::uint64_t NodeKey(int pair) { return static_cast<std::uint64_t>(pair); }
   static std::uint64_t FaceKey(const FaceContacts::Pair& pair) { return kFaceKeys + pair.id; }
+  static std::uint64_t FoldKey(const FoldContact& fold) {
+    return kFoldKeys + static_cast<std::uint64_t>(fold.node);
+  }
   static std::uint64_t BodyKey(const BodyContacts::Pair& pair) { return kBodyKeys + pair.id; }
 
   std::size_t PlaceOf(int pair) const {
@@ -109,10 +119,12 @@ class ContactFinder {
   }
   double NodeGap(int pair, const TrialEnd& end) const;
   double FaceGap(const FaceContacts::Pair& pair, const TrialEnd& end) const;
+  double FoldGap(const FoldContact& fold, const TrialEnd& end) const;
   double BodyGap(const BodyContacts::Pair& pair, const TrialEnd& end) const;
   Contact NodeAgainst(int pair, const SurfaceDistance& seen, double gap, const TrialEnd& end) const;
   Contact FaceAgainst(const FaceContacts::Pair& pair, const CupFacePoint& seen, double gap,
                       const TrialEnd& end) const;
+  Contact FoldAgainst(const FoldContact& fold, const FoldContact& seen, double gap) const;
   Contact BodyAgainst(const BodyContacts::Pair& pair, const SurfaceDistance& seen, double gap,
                       const TrialEnd& end) const;
 

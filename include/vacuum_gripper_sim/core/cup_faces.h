@@ -68,6 +68,9 @@ class CupFaces {
     return Describe(best, p_W);
   }
 
+  /// The nearest point of one face.
+  CupFacePoint On(int face, const Eigen::Vector3d& p_W) const;
+
  private:
   struct Candidate {
     int face{-1};

@@ -6,13 +6,14 @@
 
 #include "vacuum_gripper_sim/core/cup_faces.h"
 #include "vacuum_gripper_sim/core/rigid_world.h"
+#include "vacuum_gripper_sim/core/self_contact.h"
 #include "vacuum_gripper_sim/core/surface_features.h"
 #include "vacuum_gripper_sim/core/tet_mesh.h"
 
 namespace vacuum_gripper_sim {
 
-/** What the sharp edges and corners of objects see of the cup's faces, so that they do not poke
- through the wall between its nodes. */
+/** What touches the cup's faces: sharp edges and corners of objects, which would otherwise poke
+ through the wall between its nodes, and other folds of the cup. */
 class FaceContacts {
  public:
   /// A point of an edge before the face of the cup that is nearest to it.
@@ -23,7 +24,7 @@ class FaceContacts {
     CupFacePoint seen;    ///< From there.
   };
 
-  explicit FaceContacts(const TetMesh& mesh) : faces_(mesh) {}
+  explicit FaceContacts(const TetMesh& mesh) : faces_(mesh), self_contact_(mesh, faces_) {}
 
   /// Starts a step. @param x_W All nodes, 3 by #nodes. [m]
   /// @param reach Points farther from the cup are left out. [m]
@@ -34,6 +35,9 @@ class FaceContacts {
   /// With ascending ids.
   const std::vector<Pair>& pairs() const { return pairs_; }
   const Pair& Find(std::uint32_t id) const;
+  /// Nodes before other folds, ascending.
+  const std::vector<FoldContact>& folds() const { return folds_; }
+  const FoldContact& FoldOf(int node) const;
 
   /// The boundary of the cup, where Begin() or MoveTo() saw it last.
   const CupFaces& faces() const { return faces_; }
@@ -44,6 +48,8 @@ class FaceContacts {
   std::vector<std::vector<FeaturePoint>> features_;  // by surface
   CupFaces faces_;
   std::vector<Pair> pairs_;
+  SelfContact self_contact_;
+  std::vector<FoldContact> folds_;
 };
 
 }  // namespace vacuum_gripper_sim

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "vacuum_gripper_sim/core/classifier.h"
+#include "vacuum_gripper_sim/core/seal_opening.h"
 
 namespace vacuum_gripper_sim {
 
@@ -65,7 +66,8 @@ struct StepResult {
   double gauge_pressure{0.0};  ///< lambda_p, in the cavity during this step. [Pa]
   double setpoint{0.0};        ///< [Pa]
   double bottleneck_gap{
-      0.0};  ///< Widest gap from port to rim; < 0: loaded ring; +inf: no surface. [m]
+      0.0};             ///< Widest gap from port to rim; < 0: loaded ring; +inf: no surface. [m]
+  SealOpening opening;  ///< Where the cavity is open to the ambient.
   /// Of the points that the pressure acts on; of an open cup, of those a seal would close off.
   double cavity_area{0.0};          ///< Projected on the suction axis. [m^2]
   double cavity_volume{0.0};        ///< Up to the plane across the edge of those points. [m^3]
