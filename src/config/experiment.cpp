@@ -18,7 +18,7 @@ Simulator MakeSimulator(const Scenario& scenario) {
 ExperimentOutcome RunExperiment(const Scenario& scenario, Simulator* simulator,
                                 const std::function<void(const StepResult&)>& observer) {
   const double h = scenario.parameters.time_step;
-  SummaryAccumulator accumulator(CommandAt(scenario.timeline, 0.0).X_WM, h);
+  SummaryAccumulator accumulator(CommandAt(scenario.timeline, 0.0).X_WM, scenario.objects, h);
   ExperimentOutcome outcome;
   int undone_in_a_row = 0;
   double end = std::numeric_limits<double>::infinity();
@@ -27,7 +27,10 @@ ExperimentOutcome RunExperiment(const Scenario& scenario, Simulator* simulator,
   for (int step = 1; step <= num_steps && !outcome.stopped_early && !over; ++step) {
     const StepResult* result = nullptr;
     try {
-      // A command is where the mount shall be at the end of the step.
+      // A command is where the mount shall be at the end of the step; likewise the objects.
+      for (const ObjectMotion& motion : scenario.motions) {
+        simulator->SetObjectPose(motion.object, PoseAt(motion.keyframes, h * step));
+      }
       result = &simulator->Step(CommandAt(scenario.timeline, h * step));
     } catch (const std::exception& e) {
       // Not foreseen by Step(); what was recorded up to here must not be lost with it.

@@ -40,19 +40,41 @@ std::string Number(const std::optional<double>& value) {
   return number;
 }
 
+std::string Quoted(const std::string& text) {
+  YAML::Emitter emitter;
+  emitter << YAML::DoubleQuoted << text;
+  return emitter.c_str();
+}
+
 }  // namespace
 
-SummaryAccumulator::SummaryAccumulator(const Eigen::Isometry3d& X_WM, double time_step)
-    : time_step_(time_step), X_WM_(X_WM) {}
+SummaryAccumulator::SummaryAccumulator(const Eigen::Isometry3d& X_WM,
+                                       const std::vector<RigidObject>& objects, double time_step)
+    : time_step_(time_step), X_WM_(X_WM) {
+  for (std::size_t i = 0; i < objects.size(); ++i) {
+    if (!objects[i].inertia) continue;
+    FreeObjectSummary object;
+    object.name = objects[i].name;
+    object.index = i;
+    object.final_position = objects[i].X_WO.translation();
+    object.max_height = object.final_position.z();
+    summary_.free_objects.push_back(object);
+  }
+}
 
 void SummaryAccumulator::Add(const StepResult& result) {
   ++summary_.steps;
   if (result.outcome != StepOutcome::kOk) ++summary_.undone_steps;
   summary_.max_penetration = std::max(summary_.max_penetration, result.max_penetration);
   summary_.min_gauge_pressure = std::min(summary_.min_gauge_pressure, result.gauge_pressure);
+  summary_.max_friction = std::max(summary_.max_friction, result.friction_force);
+  summary_.mean_contacts += result.num_contacts;
+  summary_.mean_candidates += result.num_candidates;
+  summary_.mean_iterations += result.solver_iterations;
   step_ms_.push_back(1e3 * result.timings.total);
   AddSeal(result);
   AddForce(result);
+  AddObjects(result);
 }
 
 void SummaryAccumulator::AddSeal(const StepResult& result) {
@@ -80,6 +102,15 @@ void SummaryAccumulator::AddForce(const StepResult& result) {
   }
 }
 
+void SummaryAccumulator::AddObjects(const StepResult& result) {
+  for (FreeObjectSummary& object : summary_.free_objects) {
+    const ObjectResult& now = result.objects.at(object.index);
+    object.final_position = now.X_WO.translation();
+    object.max_height = std::max(object.max_height, object.final_position.z());
+    object.max_speed = std::max(object.max_speed, now.velocity_W.norm());
+  }
+}
+
 ExperimentSummary SummaryAccumulator::Summary() const {
   ExperimentSummary summary = summary_;
   if (step_ms_.empty()) return summary;
@@ -87,6 +118,10 @@ ExperimentSummary SummaryAccumulator::Summary() const {
   std::sort(sorted.begin(), sorted.end());
   summary.median_step_ms = Median(sorted);
   summary.p99_step_ms = Percentile(sorted, 0.99);
+  for (double* mean :
+       {&summary.mean_contacts, &summary.mean_candidates, &summary.mean_iterations}) {
+    *mean /= summary.steps;
+  }
   summary.simulated_time = time_step_ * summary.steps;
   double wall = 0.0;
   for (const double ms : step_ms_) wall += 1e-3 * ms;
@@ -96,9 +131,7 @@ ExperimentSummary SummaryAccumulator::Summary() const {
 
 void WriteSummary(const ExperimentSummary& summary, const std::string& scenario,
                   std::ostream* stream) {
-  YAML::Emitter name;
-  name << YAML::DoubleQuoted << scenario;
-  *stream << "scenario: " << name.c_str() << '\n'
+  *stream << "scenario: " << Quoted(scenario) << '\n'
           << "sealed_at: " << Number(summary.sealed_at) << "  # s\n"
           << "lost_at: " << Number(summary.lost_at) << "  # s\n"
           << "hold_force: " << Number(summary.hold_force) << "  # N\n"
@@ -108,6 +141,10 @@ void WriteSummary(const ExperimentSummary& summary, const std::string& scenario,
           << "steps: " << std::to_string(summary.steps) << '\n'
           << "undone_steps: " << std::to_string(summary.undone_steps) << '\n'
           << "max_penetration: " << Number(summary.max_penetration) << "  # m\n"
+          << "max_friction: " << Number(summary.max_friction) << "  # N\n"
+          << "mean_contacts: " << Number(summary.mean_contacts) << '\n'
+          << "mean_candidates: " << Number(summary.mean_candidates) << '\n'
+          << "mean_iterations: " << Number(summary.mean_iterations) << '\n'
           << "min_gauge_pressure: " << Number(summary.min_gauge_pressure) << "  # Pa\n"
           << "elements: " << std::to_string(summary.elements) << '\n'
           << "nodes: " << std::to_string(summary.nodes) << '\n'
@@ -117,6 +154,16 @@ void WriteSummary(const ExperimentSummary& summary, const std::string& scenario,
           << "median_step_ms: " << Number(summary.median_step_ms) << '\n'
           << "p99_step_ms: " << Number(summary.p99_step_ms) << '\n'
           << "real_time_factor: " << Number(summary.real_time_factor) << '\n';
+  if (summary.free_objects.empty()) return;
+  *stream << "free_objects:\n";
+  for (const FreeObjectSummary& object : summary.free_objects) {
+    const Eigen::Vector3d& p = object.final_position;
+    *stream << "  " << Quoted(object.name) << ":\n"
+            << "    final_position: [" << Number(p.x()) << ", " << Number(p.y()) << ", "
+            << Number(p.z()) << "]  # m\n"
+            << "    max_height: " << Number(object.max_height) << "  # m\n"
+            << "    max_speed: " << Number(object.max_speed) << "  # m/s\n";
+  }
 }
 
 }  // namespace vacuum_gripper_sim

@@ -1,5 +1,6 @@
 #include "vacuum_gripper_sim/config/scenario.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <filesystem>
@@ -10,7 +11,6 @@
 
 #include "vacuum_gripper_sim/config/parameter_reader.h"
 #include "vacuum_gripper_sim/config/simulator_config.h"
-#include "vacuum_gripper_sim/config/surface_list.h"
 #include "vacuum_gripper_sim/config/yaml_file.h"
 #include "vacuum_gripper_sim/config/yaml_override.h"
 #include "yaml_text.h"
@@ -40,21 +40,35 @@ void ApplyOverrides(const std::vector<std::string>& assignments, const Directori
   }
 }
 
-std::vector<RigidObject> ReadWorld(ParameterReader* reader, const Directories& directories) {
+SurfaceList ReadWorld(ParameterReader* reader, const Directories& directories) {
+  const double friction = ReadFriction(reader, 0.0);
   const YAML::Node list = reader->GetNode("surfaces");
   if (!reader->Has("scene")) {
-    if (reader->Has("surfaces")) return ReadObjects(list, "surfaces", directories.scenario);
+    if (reader->Has("motions")) {
+      throw std::invalid_argument("motions is set without scene; expected motion in a surface");
+    }
+    if (reader->Has("surfaces")) {
+      return ReadObjects(list, "surfaces", directories.scenario, friction);
+    }
     RigidSurface ground;
     ground.name = "ground";
     ground.shape = Plane{};
-    return {FixedObject(ground)};
+    ground.friction = friction;
+    return {{FixedObject(ground)}, {}};
   }
   const std::string scene = reader->GetString("scene");
   if (reader->Has("surfaces")) {
     throw std::invalid_argument("scene = " + scene +
                                 ": surfaces is set too; expected only one of them");
   }
-  return ReadSceneFile((fs::path(directories.scenario) / scene).lexically_normal().string());
+  const fs::path path = (fs::path(directories.scenario) / scene).lexically_normal();
+  SurfaceList world{ReadSceneFile(path.string(), friction), {}};
+  if (!reader->Has("motions")) return world;
+  world.motions = ReadMotions(reader->GetNode("motions"), "motions", world.objects);
+  for (const ObjectMotion& motion : world.motions) {
+    world.objects[static_cast<std::size_t>(motion.object)].X_WO = PoseAt(motion.keyframes, 0.0);
+  }
+  return world;
 }
 
 void CheckSetpoints(const Scenario& scenario, const YAML::Node& timeline) {
@@ -95,13 +109,18 @@ Scenario ReadDocument(const YAML::Node& root, const Directories& directories,
   const YAML::Node stop_after_loss = reader.GetNode("stop_after_loss");
   reader.GetNode("surfaces");
   reader.GetNode("scene");
+  reader.GetNode("motions");
+  reader.GetNode("friction");
+  scenario.object_output = reader.GetBool("object_output", false);
   reader.CheckNoUnknownKeys();  // first: a typo explains most of what follows
 
   scenario.cup = ReadCup(cup, directories.scenario, directories.cups);
   parameters.material = scenario.cup.material;
   parameters.damping = scenario.cup.damping;
   Validate(parameters);
-  scenario.objects = ReadWorld(&reader, directories);
+  SurfaceList world = ReadWorld(&reader, directories);
+  scenario.objects = std::move(world.objects);
+  scenario.motions = std::move(world.motions);
   scenario.timeline = ReadTimeline(timeline, "timeline");
   CheckSetpoints(scenario, timeline);
   scenario.duration = reader.GetDouble("duration", scenario.timeline.back().time);
@@ -121,6 +140,11 @@ Scenario ReadDocument(const YAML::Node& root, const Directories& directories,
 int Scenario::num_steps() const {
   // The slack forgives a duration / h that rounds to just above a whole number.
   return static_cast<int>(std::ceil(duration / parameters.time_step - 1e-6));
+}
+
+bool Scenario::HasMovingObjects() const {
+  const auto is_free = [](const RigidObject& object) { return object.inertia.has_value(); };
+  return !motions.empty() || std::any_of(objects.begin(), objects.end(), is_free);
 }
 
 std::string FindScenario(const std::string& name, const std::string& share_directory) {

@@ -4,16 +4,19 @@
 #include <urdf_model/model.h>
 #include <urdf_parser/urdf_parser.h>
 
+#include <cstddef>
 #include <exception>
 #include <stdexcept>
 #include <utility>
 
+#include "scene_xml.h"
 #include "vacuum_gripper_sim/config/mesh_file.h"
 
 namespace vacuum_gripper_sim {
 namespace {
 
-/// Keeps urdfdom's first complaint instead of printing it: the reason belongs into our one line.
+/// Keeps urdfdom's complaints instead of printing them: the reason belongs into our one line. The
+/// first says what, the later ones where.
 class ComplaintCatcher : public console_bridge::OutputHandler {
  public:
   ComplaintCatcher() { console_bridge::useOutputHandler(this); }
@@ -23,7 +26,8 @@ class ComplaintCatcher : public console_bridge::OutputHandler {
 
   void log(const std::string& text, console_bridge::LogLevel level, const char* /*file*/,
            int /*line*/) override {
-    if (complaint_.empty() && level >= console_bridge::CONSOLE_BRIDGE_LOG_ERROR) complaint_ = text;
+    if (level < console_bridge::CONSOLE_BRIDGE_LOG_ERROR) return;
+    complaint_ += (complaint_.empty() ? "" : "; ") + text;
   }
   const std::string& complaint() const { return complaint_; }
 
@@ -41,7 +45,8 @@ urdf::ModelInterfaceSharedPtr Parse(const std::string& xml) {
   } catch (const std::exception& e) {
     reason = e.what();
   }
-  if (model == nullptr) {
+  // A model comes even where links could not be read to their end.
+  if (model == nullptr || !reason.empty()) {
     throw std::invalid_argument("scene: not a valid URDF: " +
                                 (reason.empty() ? "no robot element" : reason));
   }
@@ -80,53 +85,127 @@ Shape ToShape(const urdf::Geometry& geometry, const std::string& link, MeshFiles
   }
 }
 
-std::vector<RigidSurface> ReadSurfaces(const urdf::Link& link, MeshFiles* meshes) {
+/// The model and what urdfdom passes over in it.
+struct Scene {
+  urdf::ModelInterfaceSharedPtr model;
+  const SceneXml& xml;
+  double friction;  // where the URDF says none
+  MeshFiles* meshes;
+};
+
+[[noreturn]] void Refuse(const std::string& link, const std::string& reason) {
+  throw std::invalid_argument("scene: link " + link + ": " + reason);
+}
+
+std::vector<RigidSurface> ReadSurfaces(const Scene& scene, const urdf::Link& link) {
   std::vector<RigidSurface> surfaces;
   for (const urdf::CollisionSharedPtr& collision : link.collision_array) {
     if (collision == nullptr || collision->geometry == nullptr) {
-      throw std::invalid_argument("scene: link " + link.name +
-                                  ": a collision element without geometry; expected box, sphere, "
-                                  "cylinder or mesh");
+      Refuse(link.name,
+             "a collision element without geometry; expected box, sphere, cylinder or mesh");
     }
     RigidSurface surface;
     surface.name = link.name;
-    surface.shape = ToShape(*collision->geometry, link.name, meshes);
+    surface.shape = ToShape(*collision->geometry, link.name, scene.meshes);
     surface.X_FS = ToIsometry(collision->origin);
-    try {
-      Validate(surface);
-    } catch (const std::invalid_argument& e) {
-      throw std::invalid_argument("scene: link " + link.name + ": " + e.what());
-    }
+    surface.friction = scene.xml.Friction(link.name, surfaces.size()).value_or(scene.friction);
     surfaces.push_back(std::move(surface));
   }
   return surfaces;
 }
 
-/// Depth first from the root, so that parents come before their children.
-void Collect(const urdf::Link& link, const Eigen::Isometry3d& X_RL, MeshFiles* meshes,
-             std::vector<RigidObject>* objects) {
+RigidInertia ToInertia(const urdf::Inertial& inertial) {
+  RigidInertia inertia;
+  inertia.mass = inertial.mass;
+  const Eigen::Isometry3d X_OC = ToIsometry(inertial.origin);
+  inertia.p_OC = X_OC.translation();
+  Eigen::Matrix3d about_C_C;
+  about_C_C << inertial.ixx, inertial.ixy, inertial.ixz,  //
+      inertial.ixy, inertial.iyy, inertial.iyz,           //
+      inertial.ixz, inertial.iyz, inertial.izz;
+  inertia.about_C_O = X_OC.linear() * about_C_C * X_OC.linear().transpose();
+  return inertia;
+}
+
+bool IsFree(const urdf::Link& link) {
+  return link.parent_joint != nullptr && link.parent_joint->type == urdf::Joint::FLOATING;
+}
+
+RigidObject ReadObject(const Scene& scene, const urdf::Link& link, const Eigen::Isometry3d& X_RL) {
   RigidObject object;
   object.name = link.name;
-  object.surfaces = ReadSurfaces(link, meshes);
+  object.surfaces = ReadSurfaces(scene, link);
   object.X_WO = X_RL;
-  if (!object.surfaces.empty()) objects->push_back(std::move(object));
+  if (IsFree(link)) {
+    const std::string joint = "its joint " + link.parent_joint->name + " is floating";
+    if (link.inertial == nullptr) {
+      Refuse(link.name,
+             "no inertial element, but " + joint + "; expected mass and inertia of a free object");
+    }
+    if (object.surfaces.empty()) {
+      Refuse(link.name, "no collision element, but " + joint + "; expected at least one");
+    }
+    object.inertia = ToInertia(*link.inertial);
+  }
+  if (object.surfaces.empty()) return object;
+  try {
+    Validate(object);
+  } catch (const std::invalid_argument& e) {
+    const std::string reason = e.what();
+    const std::string prefix = "object '" + object.name + "': ";  // said already
+    Refuse(link.name,
+           reason.compare(0, prefix.size(), prefix) == 0 ? reason.substr(prefix.size()) : reason);
+  }
+  return object;
+}
+
+/// Depth first from the root, so that parents come before their children.
+/// @param free The free link above this one; null: none.
+void Collect(const Scene& scene, const urdf::Link& link, const Eigen::Isometry3d& X_RL,
+             const urdf::Link* free, std::vector<SceneLink>* links) {
+  SceneLink found;
+  found.object = ReadObject(scene, link, X_RL);
+  if (!found.object.surfaces.empty()) {
+    if (free != nullptr) {
+      Refuse(link.name, "has collision geometry below the free link " + free->name +
+                            "; expected it in the free link itself");
+    }
+    if (link.parent_joint != nullptr) {
+      found.parent = link.parent_joint->parent_link_name;
+      found.X_PO = ToIsometry(link.parent_joint->parent_to_joint_origin_transform);
+    }
+    links->push_back(std::move(found));
+  }
+  if (IsFree(link)) free = &link;
   for (const urdf::LinkSharedPtr& child : link.child_links) {
-    Collect(*child, X_RL * ToIsometry(child->parent_joint->parent_to_joint_origin_transform),
-            meshes, objects);
+    Collect(scene, *child, X_RL * ToIsometry(child->parent_joint->parent_to_joint_origin_transform),
+            free, links);
   }
 }
 
 }  // namespace
 
-std::vector<RigidObject> ReadSceneUrdf(const std::string& xml, const std::string& directory) {
-  const urdf::ModelInterfaceSharedPtr model = Parse(xml);
+std::vector<SceneLink> ReadSceneLinks(const std::string& xml, const std::string& directory,
+                                      double friction) {
+  const SceneXml scene_xml(xml);
+  scene_xml.CheckTree();  // urdfdom leaves a cycle out and says nothing
   MeshFiles meshes(directory);
-  std::vector<RigidObject> objects;
-  Collect(*model->getRoot(), Eigen::Isometry3d::Identity(), &meshes, &objects);
-  if (objects.empty()) {
-    throw std::invalid_argument("scene: robot " + model->getName() +
+  const Scene scene{Parse(xml), scene_xml, friction, &meshes};
+  std::vector<SceneLink> links;
+  Collect(scene, *scene.model->getRoot(), Eigen::Isometry3d::Identity(), nullptr, &links);
+  if (links.empty()) {
+    throw std::invalid_argument("scene: robot " + scene.model->getName() +
                                 " has no collision geometry; expected at least one box, sphere, "
                                 "cylinder or mesh");
+  }
+  return links;
+}
+
+std::vector<RigidObject> ReadSceneUrdf(const std::string& xml, const std::string& directory,
+                                       double friction) {
+  std::vector<RigidObject> objects;
+  for (SceneLink& link : ReadSceneLinks(xml, directory, friction)) {
+    objects.push_back(std::move(link.object));
   }
   return objects;
 }

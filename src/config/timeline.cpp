@@ -1,5 +1,6 @@
 #include "vacuum_gripper_sim/config/timeline.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <stdexcept>
 
@@ -12,19 +13,24 @@ namespace {
 // A step's time is a multiple of h, rounded: without this slack a set-point could act a step late.
 constexpr double kTimeSlack = 1e-9;
 
-Keyframe ReadKeyframe(ParameterReader reader, double inherited_setpoint) {
+enum class Moved { kMount, kObject };
+
+/// @param setpoint Of the keyframe before.
+Keyframe ReadKeyframe(Moved moved, ParameterReader reader, double setpoint) {
   Keyframe keyframe;
   keyframe.time = reader.GetDouble("time");
   keyframe.p_WM = reader.GetVector3("position");
+  if (moved == Moved::kObject) keyframe.q_WM = Eigen::Quaterniond::Identity();
   keyframe.q_WM = reader.GetRotation("rotation", keyframe.q_WM);
-  keyframe.pressure_setpoint = reader.GetDouble("pressure_setpoint", inherited_setpoint);
+  if (moved == Moved::kMount) {
+    keyframe.pressure_setpoint = reader.GetDouble("pressure_setpoint", setpoint);
+  }
+  keyframe.smooth = reader.GetBool("smooth", false);
   reader.CheckNoUnknownKeys();
   return keyframe;
 }
 
-}  // namespace
-
-std::vector<Keyframe> ReadTimeline(const YAML::Node& node, const std::string& name) {
+std::vector<Keyframe> ReadKeyframes(Moved moved, const YAML::Node& node, const std::string& name) {
   if (node.IsNull()) {
     throw std::invalid_argument(name + " is not set; expected a list of at least 2 keyframes");
   }
@@ -33,11 +39,10 @@ std::vector<Keyframe> ReadTimeline(const YAML::Node& node, const std::string& na
                                 "; expected a list of at least 2 keyframes");
   }
   std::vector<Keyframe> timeline;
-  double setpoint = 0.0;
   for (std::size_t i = 0; i < node.size(); ++i) {
     const std::string path = name + "." + std::to_string(i);
-    timeline.push_back(ReadKeyframe(ParameterReader(node[i], path), setpoint));
-    setpoint = timeline.back().pressure_setpoint;
+    const double setpoint = i == 0 ? 0.0 : timeline.back().pressure_setpoint;
+    timeline.push_back(ReadKeyframe(moved, ParameterReader(node[i], path), setpoint));
     const std::string value = path + ".time = " + Describe(node[i]["time"]);
     if (i == 0 && timeline[i].time != 0.0) {
       throw std::invalid_argument(value + "; expected 0, the first keyframe is the start");
@@ -50,19 +55,42 @@ std::vector<Keyframe> ReadTimeline(const YAML::Node& node, const std::string& na
   return timeline;
 }
 
-Command CommandAt(const std::vector<Keyframe>& timeline, double time) {
+/// The last keyframe that is not later; of none, the first.
+std::size_t Before(const std::vector<Keyframe>& timeline, double time) {
   std::size_t next = 0;
   while (next < timeline.size() && timeline[next].time <= time + kTimeSlack) ++next;
-  const Keyframe& before = timeline[next == 0 ? 0 : next - 1];
-  const Keyframe& after = timeline[next == timeline.size() ? next - 1 : next];
+  return next == 0 ? 0 : next - 1;
+}
+
+}  // namespace
+
+std::vector<Keyframe> ReadTimeline(const YAML::Node& node, const std::string& name) {
+  return ReadKeyframes(Moved::kMount, node, name);
+}
+
+std::vector<Keyframe> ReadMotion(const YAML::Node& node, const std::string& name) {
+  return ReadKeyframes(Moved::kObject, node, name);
+}
+
+Eigen::Isometry3d PoseAt(const std::vector<Keyframe>& timeline, double time) {
+  const std::size_t index = Before(timeline, time);
+  const Keyframe& before = timeline[index];
+  const Keyframe& after = timeline[std::min(index + 1, timeline.size() - 1)];
 
   double fraction = 0.0;
   if (after.time > before.time) fraction = (time - before.time) / (after.time - before.time);
   if (fraction < 0.0) fraction = 0.0;
+  if (after.smooth) fraction *= fraction * (3.0 - 2.0 * fraction);
+  Eigen::Isometry3d X = Eigen::Isometry3d::Identity();
+  X.translation() = before.p_WM + fraction * (after.p_WM - before.p_WM);
+  X.linear() = before.q_WM.slerp(fraction, after.q_WM).normalized().toRotationMatrix();
+  return X;
+}
+
+Command CommandAt(const std::vector<Keyframe>& timeline, double time) {
   Command command;
-  command.X_WM.translation() = before.p_WM + fraction * (after.p_WM - before.p_WM);
-  command.X_WM.linear() = before.q_WM.slerp(fraction, after.q_WM).normalized().toRotationMatrix();
-  command.pressure_setpoint = before.pressure_setpoint;
+  command.X_WM = PoseAt(timeline, time);
+  command.pressure_setpoint = timeline[Before(timeline, time)].pressure_setpoint;
   return command;
 }
 

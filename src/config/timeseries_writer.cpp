@@ -20,7 +20,7 @@ TimeseriesWriter::TimeseriesWriter(std::ostream* stream) : stream_(stream) {
               "torque_x,torque_y,torque_z,contacts,cavity_area,contact_force,iterations,residual,"
               "step_ms,bottleneck_gap,cavity_volume,candidates,max_penetration,zone_0,zone_1,"
               "zone_2,zone_3,zone_4,linear_iterations,factorizations,outcome,"
-              "opening_azimuth,opening_width,opening_gap\n";
+              "opening_azimuth,opening_width,opening_gap,friction_force\n";
 }
 
 void TimeseriesWriter::Write(const StepResult& r) {
@@ -36,7 +36,8 @@ void TimeseriesWriter::Write(const StepResult& r) {
     << r.max_penetration;
   for (const std::uint32_t count : r.classification.zone_counts) s << ',' << count;
   s << ',' << r.linear_iterations << ',' << r.factorizations << ',' << static_cast<int>(r.outcome)
-    << ',' << r.opening.azimuth << ',' << r.opening.width << ',' << r.opening.largest_gap << '\n';
+    << ',' << r.opening.azimuth << ',' << r.opening.width << ',' << r.opening.largest_gap << ','
+    << r.friction_force << '\n';
 }
 
 }  // namespace vacuum_gripper_sim

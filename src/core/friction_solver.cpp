@@ -20,6 +20,9 @@ constexpr int kFirstRescue = 20;
 constexpr int kLargestRescue = 1280;
 /// Times that a Newton step may be halved.
 constexpr int kMaxHalvings = 4;
+/// Newton steps without a tenth less residual after which an acceptable result is not improved on:
+/// of many contacts between two rigid bodies, forces are not unique, and steps may go in circles.
+constexpr int kPatience = 10;
 
 Vector2d ProjectOntoDisc(const Vector2d& z, double radius) {
   const double size = z.norm();
@@ -201,8 +204,10 @@ McpStatistics Newton(const FrictionProblem& problem, const ContactParameters& pa
   double best_residual = statistics.residual;
   bool first = true;
   int rescue = kFirstRescue;
+  int without_progress = 0;
   while (statistics.residual > parameters.tolerance &&
-         statistics.iterations < parameters.max_iterations) {
+         statistics.iterations < parameters.max_iterations &&
+         (without_progress < kPatience || best_residual > parameters.acceptable_residual)) {
     const VectorXd step = problem.NewtonTarget(*lambda, end) - *lambda;
     ++statistics.iterations;
     const VectorXd start = *lambda;
@@ -226,6 +231,7 @@ McpStatistics Newton(const FrictionProblem& problem, const ContactParameters& pa
       end = problem.End(*lambda);
       statistics.residual = problem.Residual(*lambda, end);
     }
+    without_progress = statistics.residual < 0.9 * best_residual ? 0 : without_progress + 1;
     if (statistics.residual < best_residual) {
       best_residual = statistics.residual;
       best = *lambda;

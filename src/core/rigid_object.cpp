@@ -56,6 +56,13 @@ void Validate(const RigidObject& object) {
            << object.X_WO.translation().transpose();
     Refuse(object.name, reason.str());
   }
+  if (!object.velocity_W.allFinite() || !object.angular_velocity_W.allFinite()) {
+    std::ostringstream reason;
+    reason << "velocity = " << object.velocity_W.transpose()
+           << ", angular velocity = " << object.angular_velocity_W.transpose()
+           << ", must be finite [m/s], [rad/s]";
+    Refuse(object.name, reason.str());
+  }
   if (object.inertia) ValidateInertia(object.name, *object.inertia);
 }
 

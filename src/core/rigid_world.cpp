@@ -36,6 +36,10 @@ void RigidWorld::SetObjects(std::vector<RigidObject> objects) {
     if (object.inertia) {
       Body body;
       body.object = index;
+      const Vector3d OC_W = object.X_WO.linear() * object.inertia->p_OC;
+      body.V.head<3>() = object.velocity_W;
+      body.V.head<3>() += object.angular_velocity_W.cross(OC_W);
+      body.V.tail<3>() = object.angular_velocity_W;
       bodies_.push_back(body);
     }
     surfaces_.insert(surfaces_.end(), object.surfaces.begin(), object.surfaces.end());

@@ -3,7 +3,9 @@
 #include <sensor_msgs/point_cloud2_iterator.h>
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
+#include <utility>
 
 #include "zone_colors.h"
 
@@ -20,6 +22,21 @@ geometry_msgs::Vector3 ToVector3(const Eigen::Vector3d& v) {
   message.x = v.x();
   message.y = v.y();
   message.z = v.z();
+  return message;
+}
+
+geometry_msgs::TransformStamped ToTransformStamped(const Eigen::Isometry3d& X_WF,
+                                                   const std::string& frame,
+                                                   const std_msgs::Header& header) {
+  geometry_msgs::TransformStamped message;
+  message.header = header;
+  message.child_frame_id = frame;
+  message.transform.translation = ToVector3(X_WF.translation());
+  const Eigen::Quaterniond rotation = Eigen::Quaterniond(X_WF.linear()).normalized();
+  message.transform.rotation.x = rotation.x();
+  message.transform.rotation.y = rotation.y();
+  message.transform.rotation.z = rotation.z();
+  message.transform.rotation.w = rotation.w();
   return message;
 }
 
@@ -96,15 +113,34 @@ sensor_msgs::PointCloud2 ToPointCloud(const StepResult& result, const CavitySurf
 
 geometry_msgs::TransformStamped ToTransform(const StepResult& result, const std::string& cup_frame,
                                             const std_msgs::Header& header) {
-  geometry_msgs::TransformStamped message;
+  return ToTransformStamped(result.X_WM, cup_frame, header);
+}
+
+std::vector<geometry_msgs::TransformStamped> ToTransforms(const StepResult& result,
+                                                          const std::vector<RigidObject>& objects,
+                                                          const std_msgs::Header& header) {
+  std::vector<geometry_msgs::TransformStamped> transforms;
+  for (std::size_t i = 0; i < objects.size(); ++i) {
+    if (!objects[i].inertia) continue;
+    transforms.push_back(ToTransformStamped(result.objects.at(i).X_WO, objects[i].name, header));
+  }
+  return transforms;
+}
+
+ContactWrenches ToContactWrenches(const StepResult& result, const std::vector<RigidObject>& objects,
+                                  const std_msgs::Header& header) {
+  ContactWrenches message;
   message.header = header;
-  message.child_frame_id = cup_frame;
-  message.transform.translation = ToVector3(result.X_WM.translation());
-  const Eigen::Quaterniond rotation = Eigen::Quaterniond(result.X_WM.linear()).normalized();
-  message.transform.rotation.x = rotation.x();
-  message.transform.rotation.y = rotation.y();
-  message.transform.rotation.z = rotation.z();
-  message.transform.rotation.w = rotation.w();
+  for (std::size_t i = 0; i < objects.size(); ++i) {
+    const ObjectResult& object = result.objects.at(i);
+    const Eigen::Matrix3d R_OW = object.X_WO.linear().transpose();
+    ContactWrench wrench;
+    wrench.name = objects[i].name;
+    wrench.frame = objects[i].name;
+    wrench.wrench.force = ToVector3(R_OW * object.force_W);
+    wrench.wrench.torque = ToVector3(R_OW * object.torque_W);
+    message.wrenches.push_back(std::move(wrench));
+  }
   return message;
 }
 

@@ -5,9 +5,14 @@
 #include <sensor_msgs/FluidPressure.h>
 #include <sensor_msgs/PointCloud2.h>
 #include <std_msgs/Header.h>
+#include <vacuum_gripper_sim/ContactWrenches.h>
 #include <vacuum_gripper_sim/SealState.h>
 
+#include <string>
+#include <vector>
+
 #include "vacuum_gripper_sim/core/cavity_surface.h"
+#include "vacuum_gripper_sim/core/rigid_object.h"
 #include "vacuum_gripper_sim/core/step_result.h"
 
 namespace vacuum_gripper_sim {
@@ -29,6 +34,16 @@ sensor_msgs::PointCloud2 ToPointCloud(const StepResult& result, const CavitySurf
 /// Pose of `cup_frame`. @param header Of `world_frame`.
 geometry_msgs::TransformStamped ToTransform(const StepResult& result, const std::string& cup_frame,
                                             const std_msgs::Header& header);
+
+/// Poses of the free objects. @param objects Of the result. @param header Of `world_frame`.
+std::vector<geometry_msgs::TransformStamped> ToTransforms(const StepResult& result,
+                                                          const std::vector<RigidObject>& objects,
+                                                          const std_msgs::Header& header);
+
+/// What the cup does to the objects, each in its own frame. @param objects Of the result.
+/// @param header Of `world_frame`.
+ContactWrenches ToContactWrenches(const StepResult& result, const std::vector<RigidObject>& objects,
+                                  const std_msgs::Header& header);
 
 /// True when the cavity is airtight and suction acts in it.
 bool IsGrasping(const StepResult& result);

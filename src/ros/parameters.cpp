@@ -7,6 +7,7 @@
 #include "vacuum_gripper_sim/config/package_paths.h"
 #include "vacuum_gripper_sim/config/parameter_reader.h"
 #include "vacuum_gripper_sim/config/simulator_config.h"
+#include "vacuum_gripper_sim/config/surface_list.h"
 
 namespace vacuum_gripper_sim {
 namespace {
@@ -37,6 +38,7 @@ constexpr Required kRequired[] = {
     {"", "max_speed"},
     {"", "max_angular_speed"},
     {"", "gravity"},
+    {"", "friction"},
     {"regulator", "default_pressure"},
     {"regulator", "min_pressure"},
     {"regulator", "ramp_rate"},
@@ -201,6 +203,7 @@ NodeParameters ReadNodeParameters(const YAML::Node& node, const std::string& cup
   if (reader.Has("scene_description")) {
     parameters.scene_description = GetText(&reader, "scene_description");
   }
+  parameters.friction = ReadFriction(&reader, 0.0);
   parameters.diagnostic_period = GetPositive(&reader, "diagnostic_period", 1.0e+3);
   reader.CheckNoUnknownKeys();
   Validate(parameters.simulator);

@@ -31,6 +31,7 @@ struct NodeParameters {
   Cup cup;
   SimulatorParameters simulator;  ///< Complete: the cup's material and h = 1 / rate filled in.
   std::string scene_description;  ///< URDF; empty: a plane.
+  double friction{0.0};           ///< Coulomb's mu of surfaces that do not say. [-] >= 0
 };
 
 /** Turns a parameter server's value into YAML, so that one strict reader serves node and tools.

@@ -9,6 +9,7 @@
 #include <sstream>
 #include <stdexcept>
 #include <utility>
+#include <vector>
 
 #include "messages.h"
 #include "vacuum_gripper_sim/core/gmsh_reader.h"
@@ -26,7 +27,7 @@ VacuumGripperNode::VacuumGripperNode(const ros::NodeHandle& private_nh)
       parameters_(ReadNodeParameters(private_nh)),
       simulator_(ReadGmsh(parameters_.cup.mesh_file), parameters_.simulator, parameters_.X_WM),
       actuator_(parameters_.X_WM, parameters_.motion_limits, parameters_.simulator.time_step),
-      world_(parameters_.scene_description, parameters_.world_frame),
+      world_(parameters_.scene_description, parameters_.world_frame, parameters_.friction),
       painter_(simulator_.mesh(), simulator_.cavity()),
       schedule_(parameters_.simulator.time_step, ros::Time::isSimTime()),
       diagnostics_(parameters_.cup.name, parameters_.diagnostic_period,
@@ -43,6 +44,7 @@ VacuumGripperNode::VacuumGripperNode(const ros::NodeHandle& private_nh)
 void VacuumGripperNode::AdvertiseAndSubscribe() {
   constexpr bool kLatched = true;
   wrench_publisher_ = nh_.advertise<geometry_msgs::WrenchStamped>("wrench", kQueueSize);
+  contact_wrenches_publisher_ = nh_.advertise<ContactWrenches>("contact_wrenches", kQueueSize);
   seal_publisher_ = nh_.advertise<SealState>("seal_state", kQueueSize, kLatched);
   pressure_publisher_ = nh_.advertise<sensor_msgs::FluidPressure>("pressure", kQueueSize);
   points_publisher_ = nh_.advertise<sensor_msgs::PointCloud2>("surface_points", 2);
@@ -67,10 +69,10 @@ void VacuumGripperNode::Run() {
       case StepSchedule::Event::kWait:
         break;
       case StepSchedule::Event::kJumpedBack:
-        ROS_WARN("time jumped back: the cup is reset");
+        ROS_WARN("time jumped back: cup and free objects are reset");
         tf_buffer_.clear();
         mount_frame_seen_ = false;  // it begins anew where tf then says
-        ResetCup();
+        Reset();
         break;
       case StepSchedule::Event::kStep:
         Step(schedule_.StampOfStep(ros::Time::now()));
@@ -107,9 +109,9 @@ const StepResult& VacuumGripperNode::AdvanceSimulator(const Command& command) {
     return simulator_.Step(command);
   } catch (const std::exception& error) {
     // Not a bad step but a broken state: start over rather than leave the robot without a gripper.
-    ROS_ERROR("the simulation failed and the cup is reset: %s", error.what());
+    ROS_ERROR("the simulation failed; cup and free objects are reset: %s", error.what());
     diagnostics_.OnFailure(error.what());
-    ResetCup();
+    Reset();
     return simulator_.result();
   }
 }
@@ -186,11 +188,11 @@ bool VacuumGripperNode::OnOff(std_srvs::Empty::Request&, std_srvs::Empty::Respon
 
 bool VacuumGripperNode::OnReset(std_srvs::Trigger::Request&,
                                 std_srvs::Trigger::Response& response) {
-  ResetCup();
+  Reset();
   const Eigen::Vector3d p = actuator_.target().translation();
   std::ostringstream message;
   message << "rest shape at [" << p.x() << ", " << p.y() << ", " << p.z() << "] m in "
-          << parameters_.world_frame << ", vented";
+          << parameters_.world_frame << ", vented; free objects where they began";
   response.message = message.str();
   response.success = true;
   return true;
@@ -201,9 +203,10 @@ void VacuumGripperNode::SetSetpoint(double gauge_pressure) {
   diagnostics_.OnSetpoint();
 }
 
-void VacuumGripperNode::ResetCup() {
+void VacuumGripperNode::Reset() {
   setpoint_ = 0.0;
   actuator_.JumpToTarget();
+  world_.Reset(&simulator_);
   simulator_.Reset(actuator_.target());
   PublishState(ros::Time::now(), simulator_.result());
 }
@@ -213,9 +216,14 @@ void VacuumGripperNode::ResetCup() {
 void VacuumGripperNode::Publish(const ros::Time& stamp, const StepResult& result) {
   const std_msgs::Header cup_header = MakeHeader(stamp, parameters_.cup_frame);
   const std_msgs::Header world_header = MakeHeader(stamp, parameters_.world_frame);
+  std::vector<geometry_msgs::TransformStamped> transforms =
+      ToTransforms(result, simulator_.objects(), world_header);
   if (parameters_.actuator == ActuatorSource::kPoseCommand) {
-    tf_broadcaster_.sendTransform(ToTransform(result, parameters_.cup_frame, world_header));
+    transforms.push_back(ToTransform(result, parameters_.cup_frame, world_header));
   }
+  if (!transforms.empty()) tf_broadcaster_.sendTransform(transforms);
+  contact_wrenches_publisher_.publish(
+      ToContactWrenches(result, simulator_.objects(), world_header));
   wrench_publisher_.publish(ToWrench(result, cup_header));
   pressure_publisher_.publish(ToFluidPressure(result, parameters_.ambient_pressure, cup_header));
   PublishState(stamp, result);

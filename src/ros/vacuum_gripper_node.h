@@ -44,7 +44,7 @@ class VacuumGripperNode {
 
   void SetSetpoint(double gauge_pressure);
   void FollowMountFrame();
-  void ResetCup();
+  void Reset();  // The cup and the free objects.
   void Step(const ros::Time& stamp);
   const StepResult& AdvanceSimulator(const Command& command);
 
@@ -74,8 +74,8 @@ class VacuumGripperNode {
   tf2_ros::TransformListener tf_listener_{tf_buffer_};
   tf2_ros::TransformBroadcaster tf_broadcaster_;
   ros::Subscriber setpoint_subscriber_, pose_subscriber_;
-  ros::Publisher wrench_publisher_, seal_publisher_, pressure_publisher_, points_publisher_,
-      markers_publisher_, grasping_publisher_;
+  ros::Publisher wrench_publisher_, contact_wrenches_publisher_, seal_publisher_,
+      pressure_publisher_, points_publisher_, markers_publisher_, grasping_publisher_;
   ros::ServiceServer on_server_, off_server_, reset_server_;
 };
 

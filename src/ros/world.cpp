@@ -3,6 +3,7 @@
 #include <ros/console.h>
 #include <tf2/exceptions.h>
 
+#include <cstddef>
 #include <utility>
 
 #include "actuator.h"
@@ -14,61 +15,117 @@ constexpr double kGrace = 1.0;  // For a frame that is not there, before it is w
 
 }  // namespace
 
-World::World(const std::string& scene_description, const std::string& world_frame)
+World::World(const std::string& scene_description, const std::string& world_frame, double friction)
     : world_frame_(world_frame) {
-  std::vector<RigidObject> objects;
+  std::vector<SceneLink> links;
   if (scene_description.empty()) {
-    RigidObject ground = FixedObject(RigidSurface{"plane", Plane{}});
-    ground.name = world_frame;
-    objects.push_back(std::move(ground));
+    RigidSurface plane{"plane", Plane{}};
+    plane.friction = friction;
+    SceneLink ground;
+    ground.object = FixedObject(std::move(plane));
+    ground.object.name = world_frame;
+    links.push_back(std::move(ground));
   } else {
-    objects = ReadSceneUrdf(scene_description);
+    links = ReadSceneLinks(scene_description, "", friction);
   }
-  for (RigidObject& object : objects) {
+  for (SceneLink& link : links) {
     PlacedLink placed;
-    placed.object = std::move(object);
+    placed.link = std::move(link);
     links_.push_back(std::move(placed));
   }
 }
 
 void World::Update(const tf2_ros::Buffer& tf, Simulator* simulator) {
-  bool link_is_new = false;
+  std::vector<bool> were_known;
+  for (const PlacedLink& placed : links_) were_known.push_back(placed.known);
+  bool all_fixed_known = true;
   for (PlacedLink& placed : links_) {
-    const bool was_known = placed.known;
+    if (placed.is_free()) continue;
     placed.known = LookUp(tf, &placed);
-    link_is_new = link_is_new || placed.known != was_known;
+    all_fixed_known = all_fixed_known && placed.known;
   }
-
-  std::vector<RigidObject> objects;
+  for (PlacedLink& placed : links_) {
+    // Of a known one tf has what this node said. A new one would fall past what is not there yet.
+    if (placed.is_free() && !placed.known && all_fixed_known) placed.known = LookUp(tf, &placed);
+  }
+  bool link_is_new = false;
+  for (std::size_t i = 0; i < links_.size(); ++i) {
+    link_is_new = link_is_new || links_[i].known != were_known[i];
+  }
+  if (link_is_new) {
+    SetObjects(were_known, simulator);
+    return;
+  }
+  int index = 0;
   for (const PlacedLink& placed : links_) {
     if (!placed.known) continue;
-    if (!link_is_new) {
-      simulator->SetObjectPose(static_cast<int>(objects.size()), placed.object.X_WO);
-    }
-    objects.push_back(placed.object);
+    if (!placed.is_free()) simulator->SetObjectPose(index, placed.link.object.X_WO);
+    ++index;
   }
-  if (link_is_new) simulator->SetObjects(std::move(objects));
+}
+
+void World::Reset(Simulator* simulator) const {
+  int index = 0;
+  for (const PlacedLink& placed : links_) {
+    if (!placed.known) continue;
+    if (placed.is_free()) simulator->SetObjectPose(index, placed.link.object.X_WO);
+    ++index;
+  }
+}
+
+/// @param were_known Links that the simulator has: of them, free ones move on as they do.
+void World::SetObjects(const std::vector<bool>& were_known, Simulator* simulator) const {
+  std::vector<RigidObject> objects;
+  std::size_t index_before = 0;
+  for (std::size_t i = 0; i < links_.size(); ++i) {
+    if (!links_[i].known) continue;
+    objects.push_back(links_[i].link.object);
+    if (!were_known[i]) continue;
+    if (links_[i].is_free()) {
+      const ObjectResult& now = simulator->result().objects.at(index_before);
+      objects.back().X_WO = now.X_WO;
+      objects.back().velocity_W = now.velocity_W;
+      objects.back().angular_velocity_W = now.angular_velocity_W;
+    }
+    ++index_before;
+  }
+  simulator->SetObjects(std::move(objects));
+}
+
+Eigen::Isometry3d World::FindPose(const tf2_ros::Buffer& tf, const PlacedLink& placed) {
+  const std::string& frame = placed.link.object.name;
+  const bool is_broadcast =
+      frame == world_frame_ || tf.canTransform(world_frame_, frame, ros::Time(0));
+  if (placed.is_free() && !is_broadcast) {
+    return LookUpFrame(placed.link.parent, world_frame_, tf, nullptr) * placed.link.X_PO;
+  }
+  ros::Time stamp;
+  const Eigen::Isometry3d X_WO = LookUpFrame(frame, world_frame_, tf, &stamp);
+  if (placed.is_free()) {
+    ROS_WARN("tf has free link '%s' already: it begins there; whoever broadcasts it must stop now",
+             frame.c_str());
+  } else if (IsStale(stamp) && throttle_.Pass("stale " + frame)) {
+    ROS_WARN("tf has not updated scene link '%s' for a while: it stays where it was last seen",
+             frame.c_str());
+  }
+  return X_WO;
 }
 
 bool World::LookUp(const tf2_ros::Buffer& tf, PlacedLink* placed) {
-  const std::string& frame = placed->object.name;
   try {
-    ros::Time stamp;
-    placed->object.X_WO = LookUpFrame(frame, world_frame_, tf, &stamp);
+    placed->link.object.X_WO = FindPose(tf, *placed);
     placed->missing = ros::WallTime();
-    if (IsStale(stamp) && throttle_.Pass("stale " + frame)) {
-      ROS_WARN("tf has not updated scene link '%s' for a while: it stays where it was last seen",
-               frame.c_str());
-    }
     return true;
   } catch (const tf2::TransformException& error) {
+    const std::string& frame = placed->link.object.name;
     const ros::WallTime now = ros::WallTime::now();
     if (placed->missing.isZero()) placed->missing = now;
     // tf needs a moment to hear of its frames when everything is launched at once.
     if ((now - placed->missing).toSec() > kGrace && throttle_.Pass(frame)) {
       ROS_WARN("tf cannot place scene link '%s' in '%s' (%s): it %s", frame.c_str(),
                world_frame_.c_str(), error.what(),
-               placed->known ? "stays where it was last seen" : "is left out until tf can");
+               placed->known ? "stays where it was last seen"
+                             : "is left out until tf can, and so are free links");
     }
     return placed->known;
   }

@@ -14,6 +14,7 @@
 
 #include "vacuum_gripper_sim/config/experiment.h"
 #include "vacuum_gripper_sim/config/experiment_summary.h"
+#include "vacuum_gripper_sim/config/objects_writer.h"
 #include "vacuum_gripper_sim/config/package_paths.h"
 #include "vacuum_gripper_sim/config/scenario.h"
 #include "vacuum_gripper_sim/config/timeseries_writer.h"
@@ -36,9 +37,9 @@ constexpr char kUsage[] =
     "  --set KEY=VALUE   overrides a key by its dotted path, e.g. cup.young_modulus=593000.0,\n"
     "                    cup=a30, timeline.2.time=0.8; repeatable, applied in order; paths are\n"
     "                    relative to the scenario's file\n"
-    "  --out DIR         writes timeseries.csv, summary.yaml and final.vtu into DIR (made if it "
-    "is\n"
-    "                    missing); without it nothing is written\n"
+    "  --out DIR         writes timeseries.csv, summary.yaml, final.vtu and, if objects move,\n"
+    "                    objects.csv into DIR (made if it is missing); without it nothing is\n"
+    "                    written\n"
     "  --quiet           prints errors only\n"
     "  --help            prints this\n"
     "\n"
@@ -91,7 +92,7 @@ Arguments ParseArguments(const std::vector<std::string>& words) {
 /// The files of `--out`, opened before the run: a bad directory is told at once, not after minutes.
 class Outputs {
  public:
-  explicit Outputs(const std::filesystem::path& directory) {
+  Outputs(const std::filesystem::path& directory, const Scenario& scenario) {
     std::error_code error;
     std::filesystem::create_directories(directory, error);
     if (error) {
@@ -102,15 +103,22 @@ class Outputs {
     Open(directory / "summary.yaml", &summary_);
     Open(directory / "final.vtu", &grid_);
     writer_.emplace(&timeseries_);
+    if (!scenario.HasMovingObjects() && !scenario.object_output) return;
+    Open(directory / "objects.csv", &objects_);
+    objects_writer_.emplace(scenario.objects, &objects_);
   }
 
-  void Write(const StepResult& result) { writer_->Write(result); }
+  void Write(const StepResult& result) {
+    writer_->Write(result);
+    if (objects_writer_) objects_writer_->Write(result);
+  }
 
   void Finish(const Scenario& scenario, const ExperimentOutcome& outcome,
               const Simulator& simulator) {
     WriteSummary(outcome.summary, scenario.name, &summary_);
     WriteVtu(simulator.mesh(), simulator.cavity(), simulator.result(), &grid_);
-    for (std::ofstream* file : {&timeseries_, &summary_, &grid_}) {
+    for (std::ofstream* file : {&timeseries_, &summary_, &grid_, &objects_}) {
+      if (!file->is_open()) continue;  // no objects.csv
       file->close();
       if (!*file) throw std::runtime_error("--out: the files could not be written (disk full?)");
     }
@@ -122,8 +130,9 @@ class Outputs {
     if (!*file) throw std::invalid_argument("--out: " + path.string() + " cannot be written");
   }
 
-  std::ofstream timeseries_, summary_, grid_;
+  std::ofstream timeseries_, summary_, grid_, objects_;
   std::optional<TimeseriesWriter> writer_;
+  std::optional<ObjectsWriter> objects_writer_;
 };
 
 /// About ten lines a run, at most one each 0.1 s of simulated time.
@@ -161,7 +170,7 @@ int Run(const Arguments& arguments) {
       ReadScenario(FindScenario(arguments.scenario, share), arguments.overrides, share);
   Simulator simulator = MakeSimulator(scenario);
   std::optional<Outputs> outputs;
-  if (arguments.out) outputs.emplace(*arguments.out);
+  if (arguments.out) outputs.emplace(*arguments.out, scenario);
   if (!arguments.quiet) {
     std::printf("%s: cup %s, %d nodes, %d %s tetrahedra, %d steps of %g s\n", scenario.name.c_str(),
                 scenario.cup.name.c_str(), simulator.mesh().num_nodes(),

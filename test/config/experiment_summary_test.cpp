@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 #include <yaml-cpp/yaml.h>
 
+#include <cmath>
+#include <cstdint>
 #include <sstream>
 
 namespace vacuum_gripper_sim {
@@ -26,7 +28,7 @@ StepResult At(double time, double z, SealStatus status, double force_z, double s
 }
 
 TEST(ExperimentSummary, FollowsAGripByHand) {
-  SummaryAccumulator accumulator(Down(0.030), 0.1);
+  SummaryAccumulator accumulator(Down(0.030), {}, 0.1);
   accumulator.Add(At(0.1, 0.020, SealStatus::kOpen, -9.0));  // down: pushes hardest
   accumulator.Add(At(0.2, 0.019, SealStatus::kRegulating, -0.3));
   accumulator.Add(At(0.3, 0.019, SealStatus::kSealed, 3.2));
@@ -49,7 +51,7 @@ TEST(ExperimentSummary, FollowsAGripByHand) {
 }
 
 TEST(ExperimentSummary, CountsEveryFlipAndTheFirstTimes) {
-  SummaryAccumulator accumulator(Down(0.0), 1.0);
+  SummaryAccumulator accumulator(Down(0.0), {}, 1.0);
   const SealStatus sequence[] = {SealStatus::kOpen,       SealStatus::kSealed, SealStatus::kLost,
                                  SealStatus::kRegulating, SealStatus::kSealed, SealStatus::kLost};
   double time = 0.0;
@@ -61,7 +63,7 @@ TEST(ExperimentSummary, CountsEveryFlipAndTheFirstTimes) {
 
 TEST(ExperimentSummary, UpIsAgainstTheApproachAxisOfATiltedMount) {
   Eigen::Isometry3d start = Eigen::Isometry3d::Identity();  // z of the mount along z of the world
-  SummaryAccumulator accumulator(start, 1.0);
+  SummaryAccumulator accumulator(start, {}, 1.0);
   StepResult result;
   result.X_WM = start;
   result.X_WM.translation().z() = 0.1;  // towards the object
@@ -77,7 +79,7 @@ TEST(ExperimentSummary, UpIsAgainstTheApproachAxisOfATiltedMount) {
 }
 
 TEST(ExperimentSummary, StepTimesByRank) {
-  SummaryAccumulator accumulator(Down(0.0), 0.01);
+  SummaryAccumulator accumulator(Down(0.0), {}, 0.01);
   for (int i = 100; i >= 1; --i) accumulator.Add(At(0.0, 0.0, SealStatus::kOpen, 0.0, i));
   EXPECT_NEAR(accumulator.Summary().median_step_ms, 50.5, 1e-9);
   EXPECT_NEAR(accumulator.Summary().p99_step_ms, 99.0, 1e-9);
@@ -85,8 +87,41 @@ TEST(ExperimentSummary, StepTimesByRank) {
   EXPECT_NEAR(accumulator.Summary().median_step_ms, 51.0, 1e-9);
 }
 
+TEST(ExperimentSummary, FollowsFreeObjectsAndAveragesEffort) {
+  std::vector<RigidObject> objects(2);
+  objects[1].name = "box";
+  objects[1].inertia = RigidInertia();
+  SummaryAccumulator accumulator(Down(0.0), objects, 0.01);
+  StepResult result;
+  result.objects.resize(2);
+  for (const double z : {0.1, 0.3, 0.2}) {
+    result.objects[1].X_WO.translation() = Eigen::Vector3d(1.0, 2.0, z);
+    result.objects[1].velocity_W = Eigen::Vector3d(0.0, 3.0, 4.0) * z;
+    result.friction_force = 1.0 - z;
+    result.num_contacts = 4;
+    result.num_candidates = static_cast<std::uint32_t>(std::lround(10.0 * z));
+    result.solver_iterations = 7;
+    accumulator.Add(result);
+  }
+  const ExperimentSummary summary = accumulator.Summary();
+  ASSERT_EQ(summary.free_objects.size(), 1U);
+  EXPECT_EQ(summary.free_objects[0].final_position, Eigen::Vector3d(1.0, 2.0, 0.2));
+  EXPECT_EQ(summary.free_objects[0].max_height, 0.3);
+  EXPECT_NEAR(summary.free_objects[0].max_speed, 1.5, 1e-12);
+  EXPECT_EQ(summary.max_friction, 0.9);
+  EXPECT_EQ(summary.mean_contacts, 4.0);
+  EXPECT_EQ(summary.mean_candidates, 2.0);
+  EXPECT_EQ(summary.mean_iterations, 7.0);
+
+  std::ostringstream text;
+  WriteSummary(summary, "s", &text);
+  const YAML::Node box = YAML::Load(text.str())["free_objects"]["box"];
+  EXPECT_EQ(box["final_position"][2].as<double>(), 0.2);
+  EXPECT_EQ(box["max_height"].as<double>(), 0.3);
+}
+
 TEST(ExperimentSummary, CountsUndoneStepsAndKeepsExtremes) {
-  SummaryAccumulator accumulator(Down(0.0), 0.01);
+  SummaryAccumulator accumulator(Down(0.0), {}, 0.01);
   StepResult result;
   result.max_penetration = 3e-7;
   result.gauge_pressure = -6000.0;

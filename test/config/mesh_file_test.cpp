@@ -252,7 +252,7 @@ TEST(MeshFile, InScenesAndLists) {
   const YAML::Node list = YAML::Load(
       "[{name: a, type: mesh, file: box.stl, scale: [0.001, 0.001, 0.001]},"
       " {name: b, type: mesh, file: box.stl, scale: [0.001, 0.001, 0.001]}]");
-  const std::vector<RigidObject> pair = ReadObjects(list, "surfaces", directory.path());
+  const std::vector<RigidObject> pair = ReadObjects(list, "surfaces", directory.path()).objects;
   ASSERT_EQ(pair.size(), 2U);
   EXPECT_EQ(std::get<Mesh>(pair[0].surfaces[0].shape),
             std::get<Mesh>(pair[1].surfaces[0].shape));  // one geometry

@@ -68,7 +68,7 @@ surfaces:
   EXPECT_EQ(scenario.objects[0].name, "lid");
   EXPECT_EQ(std::get<Box>(scenario.objects[0].surfaces[0].shape).size,
             Eigen::Vector3d(0.1, 0.2, 0.3));
-  EXPECT_EQ(scenario.objects[0].surfaces[0].X_FS.translation(), Eigen::Vector3d(0.0, 0.0, -0.15));
+  EXPECT_EQ(scenario.objects[0].X_WO.translation(), Eigen::Vector3d(0.0, 0.0, -0.15));
   EXPECT_EQ(std::get<Sphere>(scenario.objects[1].surfaces[0].shape).radius, 0.04);
   EXPECT_EQ(std::get<Cylinder>(scenario.objects[2].surfaces[0].shape).length, 0.06);
 }
@@ -146,6 +146,24 @@ TEST_F(ScenarioFile, RefusalsNameFileAndKey) {
            {"surfaces: [{type: sphere, radius: -1.0}]", "surfaces.0.radius = -1.0"},
            {"surfaces: [{type: box, size: [1, 1, 0]}]", "surfaces.0.size = [1, 1, 0]"},
            {"surfaces: [{type: plane, radius: 1.0}]", "surfaces.0.radius is not a known key"},
+           {"friction: -0.1", "friction = -0.1"},
+           {"object_output: maybe", "object_output = maybe"},
+           {"motions: {a: []}", "motions is set without scene"},
+           {"surfaces: [{type: plane, friction: -1.0}]", "surfaces.0.friction = -1.0"},
+           {"surfaces: [{type: plane, mass: 1.0}]", "surfaces.0.mass is set for a plane"},
+           {"surfaces: [{type: sphere, radius: 1.0, mass: 0.0}]", "surfaces.0.mass = 0.0"},
+           {"surfaces: [{type: sphere, radius: 1.0, mass: heavy}]", "surfaces.0.mass = heavy"},
+           {"surfaces: [{type: sphere, radius: 1.0, inertia: [1, 1, 1]}]",
+            "surfaces.0.inertia is set without mass"},
+           {"surfaces: [{type: sphere, radius: 1.0, mass: 1.0, inertia: [1, 1, 3]}]",
+            "surfaces.0: object 'surfaces.0': inertia has the principal"},
+           {"surfaces: [{type: plane, velocity: [0, 0, 1]}]", "surfaces.0.velocity is not a known"},
+           {"surfaces: [{name: a, type: plane}, {name: a, type: plane}]", "surfaces.1.name = a"},
+           {"surfaces: [{type: plane, position: [0, 0, 0], motion: []}]",
+            "surfaces.0.position is set and motion too"},
+           {"surfaces: [{type: plane, motion: []}]", "surfaces.0.motion = []"},
+           {"surfaces: [{type: sphere, radius: 1.0, mass: 1.0, motion: []}]",
+            "surfaces.0.motion is set and mass too"},
            {"timeline: []", "timeline is set twice"}}) {
     const std::string error = Error(minimal + extra + "\n");
     EXPECT_TRUE(Contains(error, part)) << extra << ": " << error;
@@ -157,6 +175,55 @@ TEST_F(ScenarioFile, RefusalsNameFileAndKey) {
   EXPECT_TRUE(Contains(Error("cup: soft"), "timeline is not set"));
   EXPECT_TRUE(Contains(Error(""), "expected a map of keys"));
   EXPECT_TRUE(Contains(Error("a: 1\nb: [\n"), "case.yaml:3:"));
+}
+
+TEST_F(ScenarioFile, ReadsFreeAndMovingObjects) {
+  const Scenario scenario = Read(std::string(kMinimal) + R"(friction: 0.5
+surfaces:
+  - {type: plane}
+  - {type: box, size: [0.3, 0.2, 0.1], mass: 1.2, position: [0, 0, 0.05], velocity: [0.1, 0, 0]}
+  - {type: cylinder, radius: 0.1, length: 0.2, mass: 3.0, friction: 0.0}
+  - {type: sphere, radius: 0.1, mass: 1.0, inertia: [1.0, 2.0, 2.5]}
+  - name: plate
+    type: box
+    size: [1.0, 1.0, 1.0]
+    motion:
+      - {time: 0.0, position: [0.0, 0.0, 1.0]}
+      - {time: 2.0, position: [1.0, 0.0, 1.0]}
+)");
+  ASSERT_EQ(scenario.objects.size(), 5U);
+  EXPECT_FALSE(scenario.objects[0].inertia);
+  EXPECT_EQ(scenario.objects[0].surfaces[0].friction, 0.5);
+  EXPECT_EQ(scenario.objects[2].surfaces[0].friction, 0.0);
+  EXPECT_EQ(scenario.objects[1].velocity_W, Eigen::Vector3d(0.1, 0.0, 0.0));
+  const auto moments = [&](std::size_t i) {
+    return Eigen::Vector3d(scenario.objects[i].inertia->about_C_O.diagonal());
+  };
+  // m / 12 (b^2 + c^2): .1 (.04 + .01), .1 (.09 + .01), .1 (.09 + .04).
+  EXPECT_TRUE(moments(1).isApprox(Eigen::Vector3d(0.005, 0.010, 0.013), 1e-12));
+  // m (3 r^2 + l^2) / 12 = 3 (.03 + .04) / 12, m r^2 / 2.
+  EXPECT_TRUE(moments(2).isApprox(Eigen::Vector3d(0.0175, 0.0175, 0.015), 1e-12));
+  EXPECT_EQ(moments(3), Eigen::Vector3d(1.0, 2.0, 2.5));
+  ASSERT_EQ(scenario.motions.size(), 1U);
+  EXPECT_EQ(scenario.motions[0].object, 4);
+  EXPECT_EQ(scenario.objects[4].X_WO.translation().z(), 1.0);
+  EXPECT_EQ(PoseAt(scenario.motions[0].keyframes, 1.0).translation().x(), 0.5);
+  EXPECT_TRUE(scenario.HasMovingObjects());
+  EXPECT_FALSE(Read(kMinimal).HasMovingObjects());
+}
+
+TEST_F(ScenarioFile, MovesLinksOfAScene) {
+  directory_.Write("scene.urdf",
+                   "<robot name=\"r\"><link name=\"plate\"><collision><geometry><box size=\"1 1 "
+                   "1\"/></geometry></collision></link></robot>");
+  const std::string scenario = std::string(kMinimal) + "scene: scene.urdf\n";
+  const std::string keyframes = "[{time: 0, position: [0, 0, 2]}, {time: 1, position: [0, 0, 3]}]";
+  const Scenario moved = Read(scenario + "motions: {plate: " + keyframes + "}\n");
+  ASSERT_EQ(moved.motions.size(), 1U);
+  EXPECT_EQ(moved.objects[0].X_WO.translation().z(), 2.0);
+  EXPECT_TRUE(Contains(Error(scenario + "motions: {dish: " + keyframes + "}\n"),
+                       "motions.dish is no object"));
+  EXPECT_TRUE(Contains(Error(scenario + "motions: []\n"), "motions = []"));
 }
 
 TEST_F(ScenarioFile, IsFoundByNameAmongTheShipped) {

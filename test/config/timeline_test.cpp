@@ -43,6 +43,32 @@ TEST(Timeline, TurnsAtConstantSpeed) {
   EXPECT_NEAR(x.y(), 0.5, 1e-10);
 }
 
+TEST(Timeline, SmoothWaysBeginAndEndAtRest) {
+  const auto timeline = Read(
+      "[{time: 0, position: [0, 0, 0]}, {time: 2, position: [1, 0, 0], smooth: true},"
+      " {time: 3, position: [2, 0, 0]}]");
+  const auto x = [&](double time) { return PoseAt(timeline, time).translation().x(); };
+  EXPECT_NEAR(x(0.5), 0.15625, 1e-14);  // f = 1/4: 3/16 - 2/64
+  EXPECT_NEAR(x(1.0), 0.5, 1e-14);
+  EXPECT_NEAR(x(1e-3) / 1e-3, 0.0, 1e-3);                // at rest at first
+  EXPECT_NEAR((1.0 - x(2.0 - 1e-3)) / 1e-3, 0.0, 1e-3);  // and at last
+  EXPECT_NEAR(x(2.25), 1.25, 1e-14);                     // the next way is straight
+}
+
+TEST(Timeline, ObjectsAreNotTurnedAndHaveNoSetpoint) {
+  const auto motion = ReadMotion(
+      YAML::Load("[{time: 0, position: [0, 0, 1]}, {time: 1, position: [0, 0, 2]}]"), "m");
+  EXPECT_TRUE(PoseAt(motion, 0.5).linear().isIdentity(1e-14));
+  EXPECT_EQ(PoseAt(motion, 0.5).translation(), Eigen::Vector3d(0.0, 0.0, 1.5));
+  EXPECT_TRUE(Contains(ErrorOf([] {
+                         ReadMotion(YAML::Load("[{time: 0, position: [0, 0, 1]}, {time: 1, "
+                                               "position: [0, 0, 2], pressure_setpoint: 0}]"),
+                                    "m");
+                       }),
+                       "m.1.pressure_setpoint is not a known key"));
+  EXPECT_TRUE(Contains(ErrorOf([] { ReadMotion(YAML::Load("[]"), "m"); }), "m = []"));
+}
+
 TEST(Timeline, SetpointHoldsUntilAnother) {
   const auto timeline = Read(
       "[{time: 0, position: [0, 0, 0]}, {time: 1, position: [0, 0, 0], pressure_setpoint: -6000},"

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "config_test_tools.h"
+#include "vacuum_gripper_sim/config/objects_writer.h"
 #include "vacuum_gripper_sim/config/timeseries_writer.h"
 #include "vacuum_gripper_sim/config/vtu_writer.h"
 #include "vacuum_gripper_sim/core/simulator.h"
@@ -102,6 +103,33 @@ std::vector<double> Numbers(const std::string& xml, const std::string& name) {
   std::vector<double> numbers;
   for (double number; stream >> number;) numbers.push_back(number);
   return numbers;
+}
+
+TEST(ObjectsWriter, ARowForEveryObject) {
+  std::vector<RigidObject> objects(2);
+  objects[0].name = "table";
+  objects[1].name = "a \"box\", closed";
+  std::ostringstream text;
+  text.imbue(std::locale(std::locale::classic(), new CommaPunctuation));
+  ObjectsWriter writer(objects, &text);
+  StepResult result;
+  result.time = 1234.5;
+  result.objects.resize(2);
+  result.objects[0].X_WO.linear() = Eigen::Quaterniond(0.0, 1.0, 0.0, 0.0).toRotationMatrix();
+  result.objects[0].X_WO.translation() = Eigen::Vector3d(1.0, 2.0, 3.0);
+  result.objects[0].velocity_W = Eigen::Vector3d(4.0, 5.0, 6.0);
+  result.objects[0].force_W = Eigen::Vector3d(7.0, 8.0, 9.0);
+  result.objects[0].torque_W = Eigen::Vector3d(10.0, 11.0, 12.0);
+  writer.Write(result);
+
+  std::istringstream lines(text.str());
+  std::string header, first, second;
+  std::getline(lines, header);
+  std::getline(lines, first);
+  std::getline(lines, second);
+  EXPECT_EQ(Split(header).size(), 18U);
+  EXPECT_EQ(first, "1234.5,table,1,2,3,1,0,0,0,4,5,6,7,8,9,10,11,12");
+  EXPECT_EQ(second.substr(0, 27), "1234.5,\"a \"\"box\"\", closed\",");
 }
 
 TEST(VtuWriter, WritesPointsCellsAndFields) {

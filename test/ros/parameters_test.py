@@ -33,6 +33,7 @@ WRONG = {
     'max_speed': [0.0, -1.0],
     'max_angular_speed': [0.0],
     'gravity': [[0.0, 0.0], -9.81],
+    'friction': [-0.1, float('nan'), [0.5]],
     'regulator.default_pressure': [1000.0, -95000.0],
     'regulator.min_pressure': [0.0, 1.0, -200000.0],
     'regulator.ramp_rate': [0.0, -1.0],

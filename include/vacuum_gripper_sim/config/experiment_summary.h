@@ -1,15 +1,25 @@
 #pragma once
 
 #include <Eigen/Geometry>
-#include <cstdint>
+#include <cstddef>
 #include <optional>
 #include <ostream>
 #include <string>
 #include <vector>
 
+#include "vacuum_gripper_sim/core/rigid_object.h"
 #include "vacuum_gripper_sim/core/step_result.h"
 
 namespace vacuum_gripper_sim {
+
+/// What became of a free object.
+struct FreeObjectSummary {
+  std::string name;
+  std::size_t index{0};                                     ///< Of StepResult::objects.
+  Eigen::Vector3d final_position{Eigen::Vector3d::Zero()};  ///< Of its frame, world. [m]
+  double max_height{0.0};                                   ///< Largest z of its frame. [m]
+  double max_speed{0.0};                                    ///< Of its frame. [m/s]
+};
 
 /// The figures of one experiment. Empty where the event did not happen.
 struct ExperimentSummary {
@@ -24,6 +34,10 @@ struct ExperimentSummary {
   int steps{0};                           ///< Undone ones included.
   int undone_steps{0};                    ///< Steps that did not end as kOk.
   double max_penetration{0.0};            ///< [m]
+  double max_friction{0.0};               ///< Largest friction force on the cup. [N]
+  double mean_contacts{0.0};              ///< A step: contacts of the cup that carry load,
+  double mean_candidates{0.0};            ///< contact constraints in the problem,
+  double mean_iterations{0.0};            ///< iterations of the last contact solve.
   double min_gauge_pressure{0.0};         ///< Deepest vacuum in the cavity. [Pa]
   int elements{0};                        ///< Tetrahedra of the cup.
   int nodes{0};                           ///< Nodes of the cup.
@@ -33,6 +47,7 @@ struct ExperimentSummary {
   double median_step_ms{0.0};             ///< Wall time of a step. [ms]
   double p99_step_ms{0.0};                ///< Nearest rank. [ms]
   double real_time_factor{0.0};           ///< Simulated time / wall time of the steps.
+  std::vector<FreeObjectSummary> free_objects;
 };
 
 /** Collects the figures of an experiment from its steps.
@@ -41,8 +56,10 @@ struct ExperimentSummary {
  first way down to the surface therefore does not count, a sideways move neither. */
 class SummaryAccumulator {
  public:
-  /// @param X_WM Pose of the mount before the first step. @param time_step h. [s]
-  SummaryAccumulator(const Eigen::Isometry3d& X_WM, double time_step);
+  /// @param X_WM Pose of the mount before the first step. @param objects The world then.
+  /// @param time_step h. [s]
+  SummaryAccumulator(const Eigen::Isometry3d& X_WM, const std::vector<RigidObject>& objects,
+                     double time_step);
 
   void Add(const StepResult& result);
   ExperimentSummary Summary() const;
@@ -50,6 +67,7 @@ class SummaryAccumulator {
  private:
   void AddSeal(const StepResult& result);
   void AddForce(const StepResult& result);
+  void AddObjects(const StepResult& result);
 
   ExperimentSummary summary_;
   double time_step_;

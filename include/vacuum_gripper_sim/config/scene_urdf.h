@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Geometry>
 #include <string>
 #include <vector>
 
@@ -7,12 +8,32 @@
 
 namespace vacuum_gripper_sim {
 
-/** Reads the collision geometry of a URDF with urdfdom: box, sphere, cylinder, mesh. Every link with
- collision elements becomes an object, named as the link, which is its tf frame, and placed in the
- URDF's root link as all joints at zero have it.
+/// A link of a scene with something to touch.
+struct SceneLink {
+  RigidObject object;  ///< Named as the link; X_WO is its pose in the URDF's root link.
+  std::string parent;  ///< Link above; empty: it is the root.
+  Eigen::Isometry3d X_PO{Eigen::Isometry3d::Identity()};  ///< Pose in it, its joint at zero.
+};
+
+/** Reads the collision geometry of a URDF with urdfdom: box, sphere, cylinder, mesh. Every link
+ with collision elements becomes an object, named as the link, which is its tf frame, and placed in
+ the URDF's root link as all joints at zero have it.
+
+ A link whose parent joint is `floating` is a free object with the mass, centre of mass and inertia
+ of its `<inertial>`. Friction of a collision element is `<friction mu="0.5"/>` in it (urdfdom, like
+ others, passes over it), else Gazebo's `<gazebo reference="LINK"><mu1>0.5</mu1></gazebo>` of the
+ link.
  @param directory Where relative paths of meshes start; empty: they are refused.
+ @param friction Coulomb's mu of those of which the URDF says none. [-] >= 0
  @throws std::invalid_argument naming the link and the reason: not a URDF, a size that is not finite
-   or not positive, a mesh that cannot be read (see MeshFiles), no collision geometry at all. */
-std::vector<RigidObject> ReadSceneUrdf(const std::string& xml, const std::string& directory = "");
+   or not positive, a mesh that cannot be read (see MeshFiles), no collision geometry at all; two
+ links of one name, two parents, a cycle; a free link without inertial or collision, with a mass or
+ inertia that no body has, or with collision geometry in a link below it; negative friction. */
+std::vector<SceneLink> ReadSceneLinks(const std::string& xml, const std::string& directory,
+                                      double friction);
+
+/// The objects of ReadSceneLinks().
+std::vector<RigidObject> ReadSceneUrdf(const std::string& xml, const std::string& directory = "",
+                                       double friction = 0.0);
 
 }  // namespace vacuum_gripper_sim

@@ -5,22 +5,49 @@
 #include <string>
 #include <vector>
 
+#include "vacuum_gripper_sim/config/parameter_reader.h"
+#include "vacuum_gripper_sim/config/timeline.h"
 #include "vacuum_gripper_sim/core/rigid_object.h"
 
 namespace vacuum_gripper_sim {
 
-/** Reads a list of rigid surfaces in the world, each a map of `name`, `type` (plane, box, sphere,
+/// An object that is where its keyframes put it; between them as Keyframe says.
+struct ObjectMotion {
+  int object{0};
+  std::vector<Keyframe> keyframes;  ///< p_WM, q_WM are the object's; set-points are zero.
+};
+
+/// What a scenario's cup touches.
+struct SurfaceList {
+  std::vector<RigidObject> objects;
+  std::vector<ObjectMotion> motions;
+};
+
+/** Reads a list of rigid objects in the world, each a map of `name`, `type` (plane, box, sphere,
  cylinder, mesh), its dimensions (`size` [x, y, z] of a box, `radius`, `length` of a cylinder) [m]
- or its `file` and `scale` (see MeshFiles), `position` [m] (default: the origin) and `rotation`
- (default: none).
+ or its `file` and `scale` (see MeshFiles), `friction` [-], and either `position` [m] (default: the
+ origin) and `rotation` (default: none), or `motion`, see ReadMotion(). With `mass` [kg] it is free,
+ its centre of mass in the middle, `inertia` [Ixx, Iyy, Izz] [kg m^2] about it is that of a uniform
+ solid if not set (a mesh must say), and `velocity` [m/s] at first none.
  @param name Dotted path of the list, for messages.
  @param directory Where relative paths of meshes start.
+ @param friction Of those that do not say. [-]
  @throws std::invalid_argument naming the key, its value and what is allowed. */
-std::vector<RigidObject> ReadObjects(const YAML::Node& node, const std::string& name,
-                                     const std::string& directory);
+SurfaceList ReadObjects(const YAML::Node& node, const std::string& name,
+                        const std::string& directory, double friction = 0.0);
+
+/** Reads the motions of objects: a map from an object's name to keyframes, see ReadMotion().
+ @param path Dotted path of the map, for messages.
+ @throws std::invalid_argument naming the object: unknown, or free. */
+std::vector<ObjectMotion> ReadMotions(const YAML::Node& node, const std::string& path,
+                                      const std::vector<RigidObject>& objects);
+
+/// The key `friction`. @throws std::invalid_argument naming it and its value if it is negative.
+double ReadFriction(ParameterReader* reader, double default_value);
 
 /// Reads a URDF's collision geometry, its links where the joints at zero put them and its root link
 /// at the world's origin. @throws std::invalid_argument naming the file and the reason.
-std::vector<RigidObject> ReadSceneFile(const std::string& path);
+/// @param friction Of links that do not say. [-]
+std::vector<RigidObject> ReadSceneFile(const std::string& path, double friction = 0.0);
 
 }  // namespace vacuum_gripper_sim

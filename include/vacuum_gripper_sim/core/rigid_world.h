@@ -23,7 +23,7 @@ class RigidWorld {
   using Vector6d = Eigen::Matrix<double, 6, 1>;
   static constexpr int kNone = -1;
 
-  /// Replaces all objects; free ones start at rest.
+  /// Replaces all objects; free ones start with their velocities.
   /// @throws std::invalid_argument, see Validate(const RigidObject&).
   void SetObjects(std::vector<RigidObject> objects);
   /// Puts an object somewhere for the steps to come; a free one comes to rest there.

@@ -31,7 +31,7 @@ class Simulator {
   Simulator(Simulator&&) noexcept;
   Simulator& operator=(Simulator&&) noexcept;
 
-  /// Replaces the world; free objects start at rest.
+  /// Replaces the world; free objects start with their velocities.
   /// @throws std::invalid_argument, see Validate(const RigidObject&).
   void SetObjects(std::vector<RigidObject> objects);
   /// Where they are now.
