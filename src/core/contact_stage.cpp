@@ -21,6 +21,9 @@ using Eigen::VectorXd;
 constexpr int kMaxPasses = 24;
 /// An earlier factorisation that needs more is renewed.
 constexpr int kMaxStalePasses = 8;
+/// What folds may pass each other by, or part under load: both sides of the contact turn while it
+/// is solved, and nothing depends on where exactly they meet. [m]
+constexpr double kFoldSlack = 2e-5;
 
 /// Is a loaded contact inside its cone of friction?
 bool Sticks(const ContactRows& contact, const VectorXd& lambda) {
@@ -316,7 +319,8 @@ void ContactStage::MeasureEnd(const TrialEnd& end, ContactSolution* solution) {
     const bool is_loaded = candidate.force.x() > 0.0;
     if (is_loaded || !is_node) {
       const double gap = finder_.At(candidate.contact.key, end).gap;
-      solution->error = std::max(solution->error, is_loaded ? std::abs(gap) : -gap);
+      const double slack = candidate.contact.object == RigidWorld::kNone ? kFoldSlack : 0.0;
+      solution->error = std::max(solution->error, (is_loaded ? std::abs(gap) : -gap) - slack);
     }
     // Refined forces may pull, and leave their cones.
     const ContactRows& rows = operator_.rows()[i];
