@@ -16,10 +16,15 @@ using Eigen::Vector3d;
 struct Feeler {
   Vector3d p_S;
   double radius{0.0};
+  Vector3d edge_S{Vector3d::Zero()};  ///< Direction of the edge inside which it is; zero: none.
+  bool absent{false};                 ///< Keeps its number, but does not feel.
 };
 
 constexpr int kPointsAlongAnEdge = 3;  // between its corners
 constexpr int kPointsAlongARim = 8;    // besides the deepest one
+/// Sine of the angle to a surface below which an edge is carried by its ends, and a rim all round.
+/// More points than needed would share the load in more ways than one.
+constexpr double kFlat = 0.05;
 
 // How many there are does not depend on `into`: their numbers name them from step to step.
 // @param into Direction, in S, in which the other surface lies.
@@ -27,7 +32,10 @@ constexpr int kPointsAlongARim = 8;    // besides the deepest one
 std::vector<Feeler> Feelers(const Plane&, const Vector3d& /*into*/) { return {}; }
 
 std::vector<Feeler> Feelers(const Sphere& sphere, const Vector3d& /*into*/) {
-  return {{Vector3d::Zero(), sphere.radius}};
+  Feeler feeler;
+  feeler.p_S.setZero();
+  feeler.radius = sphere.radius;
+  return {feeler};
 }
 
 std::vector<Feeler> Feelers(const Box& box, const Vector3d& /*into*/) {
@@ -43,7 +51,8 @@ std::vector<Feeler> Feelers(const Box& box, const Vector3d& /*into*/) {
       const int last = kPointsAlongAnEdge + (along == 0 ? 1 : 0);
       for (int i = first; i <= last; ++i) {
         p(along) = half(along) * (2.0 * i / (kPointsAlongAnEdge + 1) - 1.0);
-        feelers.push_back({p, 0.0});
+        const bool inside = i > 0 && i <= kPointsAlongAnEdge;
+        feelers.push_back({p, 0.0, inside ? Vector3d::Unit(along) : Vector3d::Zero().eval()});
       }
     }
   }
@@ -56,9 +65,11 @@ std::vector<Feeler> Feelers(const Cylinder& cylinder, const Vector3d& into) {
   for (const double side : {-0.5, 0.5}) {
     for (int i = -1; i < kPointsAlongARim; ++i) {
       const double angle = i < 0 ? deepest : 2.0 * M_PI * i / kPointsAlongARim;
-      feelers.push_back({{cylinder.radius * std::cos(angle), cylinder.radius * std::sin(angle),
-                          side * cylinder.length},
-                         0.0});
+      Feeler feeler;
+      feeler.p_S << cylinder.radius * std::cos(angle), cylinder.radius * std::sin(angle),
+          side * cylinder.length;
+      feeler.absent = i < 0 && into.head<2>().norm() < kFlat;  // the deepest is any of them
+      feelers.push_back(feeler);
     }
   }
   return feelers;
@@ -67,7 +78,9 @@ std::vector<Feeler> Feelers(const Cylinder& cylinder, const Vector3d& into) {
 std::vector<Feeler> Feelers(const Mesh& mesh, const Vector3d& /*into*/) {
   std::vector<Feeler> feelers;
   for (Eigen::Index i = 0; i < mesh->vertices().cols(); ++i) {
-    feelers.push_back({mesh->vertices().col(i), 0.0});
+    Feeler feeler;
+    feeler.p_S = mesh->vertices().col(i);
+    feelers.push_back(feeler);
   }
   return feelers;
 }
@@ -97,13 +110,18 @@ void BodyContacts::Begin(const RigidWorld& world, double reach) {
       for (const Feeler& feeler : feelers) {
         Pair pair;
         pair.id = id++;
+        if (feeler.absent) continue;
         pair.feeling = i;
         pair.surface = surface;
         pair.p_W = felt_out.X_FS * feeler.p_S;
         pair.radius = feeler.radius;
         pair.seen = Distance(against, pair.p_W);
         pair.seen.distance -= feeler.radius;
-        if (pair.seen.distance < reach) pairs_.push_back(pair);
+        if (pair.seen.distance >= reach) continue;
+        const Vector3d edge_W = felt_out.X_FS.linear() * feeler.edge_S;
+        const bool carried_by_its_ends =
+            !feeler.edge_S.isZero(0.0) && std::abs(pair.seen.normal.dot(edge_W)) < kFlat;
+        if (!carried_by_its_ends) pairs_.push_back(pair);
       }
     }
   }

@@ -21,9 +21,18 @@ using Eigen::VectorXd;
 constexpr int kMaxPasses = 24;
 /// An earlier factorisation that needs more is renewed.
 constexpr int kMaxStalePasses = 8;
+/// Passes with friction whose forces were not found to the tolerance.
+constexpr int kMaxPassesAstray = 3;
 /// What folds may pass each other by, or part under load: both sides of the contact turn while it
 /// is solved, and nothing depends on where exactly they meet. [m]
 constexpr double kFoldSlack = 2e-5;
+/// The same of two rigid bodies. [m]
+constexpr double kBodySlack = 1e-5;
+
+double Slack(const Contact& contact) {
+  if (contact.num_nodes == 0) return kBodySlack;
+  return contact.object == RigidWorld::kNone ? kFoldSlack : 0.0;
+}
 
 /// Is a loaded contact inside its cone of friction?
 bool Sticks(const ContactRows& contact, const VectorXd& lambda) {
@@ -290,8 +299,8 @@ bool ContactStage::SolveWithFactorization(const SystemVector& impulse, ContactSo
     const bool passed = std::any_of(missed.begin(), missed.end(),
                                     [&](const Contact& contact) { return contact.gap < -bound; });
     if (!passed && solution->error <= bound) break;
-    // Forces with friction that were not found from here will not be found from a little further.
-    if (!solution->statistics.converged && !operator_.plain()) break;
+    // Forces with friction that are not found from here are hardly found from a little further.
+    if (!solution->statistics.converged && !operator_.plain() && pass >= kMaxPassesAstray) break;
 
     MeasureCandidates([&](std::uint64_t key) { return finder_.At(key, end); });
     for (Candidate& candidate : candidates_) candidate.applied = candidate.force;
@@ -319,8 +328,8 @@ void ContactStage::MeasureEnd(const TrialEnd& end, ContactSolution* solution) {
     const bool is_loaded = candidate.force.x() > 0.0;
     if (is_loaded || !is_node) {
       const double gap = finder_.At(candidate.contact.key, end).gap;
-      const double slack = candidate.contact.object == RigidWorld::kNone ? kFoldSlack : 0.0;
-      solution->error = std::max(solution->error, (is_loaded ? std::abs(gap) : -gap) - slack);
+      solution->error =
+          std::max(solution->error, (is_loaded ? std::abs(gap) : -gap) - Slack(candidate.contact));
     }
     // Refined forces may pull, and leave their cones.
     const ContactRows& rows = operator_.rows()[i];
