@@ -2,12 +2,25 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <limits>
 
 namespace vacuum_gripper_sim {
 namespace {
 
 /// Of points along an edge: about the size of the lip's faces. [m]
 constexpr double kSpacing = 1e-3;
+
+/// Folds nearer than this may touch during a step. [m]
+constexpr double kFoldReach = 5e-4;
+/// How far nodes may move against each other before all of them look for folds again. [m]
+constexpr double kFoldMargin = 1e-3;
+
+/// Bound on how far any node moved against any other one. [m]
+double RelativeMotion(const Eigen::Matrix3Xd& x, const Eigen::Matrix3Xd& x_before) {
+  if (x.cols() != x_before.cols()) return std::numeric_limits<double>::infinity();
+  const Eigen::Matrix3Xd way = x - x_before;
+  return (way.rowwise().maxCoeff() - way.rowwise().minCoeff()).norm();
+}
 
 }  // namespace
 
@@ -20,20 +33,36 @@ void FaceContacts::Begin(const RigidWorld& world, const Eigen::Matrix3Xd& x_W, d
       features_.push_back(SharpFeatures(surface.shape, kSpacing));
     }
   }
-  faces_.Update(x_W);
-  folds_ = self_contact_.Find(faces_, x_W, reach);
-  const Eigen::AlignedBox3d around(Eigen::Vector3d(faces_.bounds_W().min().array() - reach),
-                                   Eigen::Vector3d(faces_.bounds_W().max().array() + reach));
+  FindFolds(x_W);
+  const Eigen::AlignedBox3d around(Eigen::Vector3d(x_W.rowwise().minCoeff().array() - reach),
+                                   Eigen::Vector3d(x_W.rowwise().maxCoeff().array() + reach));
+  bool moved = false;
   std::uint32_t id = 0;
   for (std::size_t i = 0; i < surfaces.size(); ++i) {
     for (const FeaturePoint& feature : features_[i]) {
       const std::uint32_t this_id = id++;
       const Eigen::Vector3d p_W = surfaces[i].X_FS * feature.p_S;
       if (!around.contains(p_W)) continue;
+      if (!moved) faces_.Update(x_W);
+      moved = true;
       const std::optional<CupFacePoint> seen = faces_.Nearest(p_W, reach);
       if (seen) pairs_.push_back({this_id, static_cast<int>(i), p_W, *seen});
     }
   }
+}
+
+/// Only nodes that were near another fold look for it at every step.
+void FaceContacts::FindFolds(const Eigen::Matrix3Xd& x_W) {
+  const bool all = RelativeMotion(x_W, x_searched_) > kFoldMargin;
+  if (all || !near_folds_.empty()) faces_.Update(x_W);
+  if (all) {
+    x_searched_ = x_W;
+    near_folds_.clear();
+    for (const FoldContact& fold : self_contact_.Find(faces_, x_W, kFoldReach + kFoldMargin)) {
+      near_folds_.push_back(fold.node);
+    }
+  }
+  folds_ = self_contact_.Find(faces_, x_W, kFoldReach, near_folds_);
 }
 
 const FoldContact& FaceContacts::FoldOf(int node) const {

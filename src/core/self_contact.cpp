@@ -109,12 +109,14 @@ bool SelfContact::MayTouch(std::size_t index, int triangle) const {
 }
 
 std::vector<FoldContact> SelfContact::Find(const CupFaces& faces, const Eigen::Matrix3Xd& x_W,
-                                           double reach) const {
+                                           double reach, const std::vector<int>& nodes) const {
+  if (nodes.empty()) return {};
   const Eigen::Matrix3Xi& triangles = faces.triangles();
   const Normals normals = NormalsOf(triangles, x_W);
   std::vector<FoldContact> contacts;
-  for (std::size_t i = 0; i < nodes_.size(); ++i) {
-    const int node = nodes_[i];
+  for (const int node : nodes) {
+    const auto i = static_cast<std::size_t>(std::lower_bound(nodes_.begin(), nodes_.end(), node) -
+                                            nodes_.begin());
     const Eigen::Vector3d p = x_W.col(node);
     const Eigen::Vector3d outward = normals.of_nodes.col(node);
     const double depth = std::min(reach, half_walls_[Index(node)]);

@@ -45,11 +45,15 @@ class FaceContacts {
   void MoveTo(const Eigen::Matrix3Xd& x_W) { faces_.Update(x_W); }
 
  private:
+  void FindFolds(const Eigen::Matrix3Xd& x_W);
+
   std::vector<std::vector<FeaturePoint>> features_;  // by surface
   CupFaces faces_;
   std::vector<Pair> pairs_;
   SelfContact self_contact_;
   std::vector<FoldContact> folds_;
+  Eigen::Matrix3Xd x_searched_;  // where all nodes were when they looked for folds last
+  std::vector<int> near_folds_;  // nodes that may touch one until they do so again
 };
 
 }  // namespace vacuum_gripper_sim

@@ -44,7 +44,12 @@ class SelfContact {
    @param faces Updated to x_W. @param x_W Positions of all mesh nodes, 3 by #nodes. [m]
    @param reach Largest gap. [m] */
   std::vector<FoldContact> Find(const CupFaces& faces, const Eigen::Matrix3Xd& x_W,
-                                double reach) const;
+                                double reach) const {
+    return Find(faces, x_W, reach, nodes_);
+  }
+  /// The same of some nodes alone. @param nodes Of the boundary, not clamped, ascending.
+  std::vector<FoldContact> Find(const CupFaces& faces, const Eigen::Matrix3Xd& x_W, double reach,
+                                const std::vector<int>& nodes) const;
 
   /// The same node before the same face somewhere else. @param faces Updated to x_W.
   static FoldContact At(const FoldContact& contact, const CupFaces& faces,
