@@ -194,14 +194,15 @@ void SolveOnTheRight(Index rows, Index columns, const Scalar* L, Index stride_L,
   }
 }
 
-#define VACUUM_GRIPPER_INSTANTIATE(Scalar)                                                       \
-  template void NegativeSquare(Index, Index, const Scalar*, Index, Scalar*);                     \
-  template void NegativeProduct(Index, Index, Index, const Scalar*, Index, const Scalar*, Index, \
-                                Scalar*);                                                        \
-  template bool FactorizePanel(Index, Index, Scalar*);                                           \
-  template void SolveOnTheRight(Index, Index, const Scalar*, Index, Scalar*)
-VACUUM_GRIPPER_INSTANTIATE(double);
-VACUUM_GRIPPER_INSTANTIATE(float);
-#undef VACUUM_GRIPPER_INSTANTIATE
+template void NegativeSquare(Index, Index, const double*, Index, double*);
+template void NegativeProduct(Index, Index, Index, const double*, Index, const double*, Index,
+                              double*);
+template bool FactorizePanel(Index, Index, double*);
+template void SolveOnTheRight(Index, Index, const double*, Index, double*);
+template void NegativeSquare(Index, Index, const float*, Index, float*);
+template void NegativeProduct(Index, Index, Index, const float*, Index, const float*, Index,
+                              float*);
+template bool FactorizePanel(Index, Index, float*);
+template void SolveOnTheRight(Index, Index, const float*, Index, float*);
 
 }  // namespace vacuum_gripper_sim

@@ -17,7 +17,7 @@ Eigen::VectorXd EliminatedColumns::TransposeTimes(const Eigen::VectorXd& y) cons
   return std::visit(
       [&](const auto& values) -> Eigen::VectorXd {
         using Vector = Eigen::Matrix<ScalarOf<decltype(values)>, Eigen::Dynamic, 1>;
-        const Vector rounded = y.template cast<typename Vector::Scalar>();
+        Vector rounded = y.template cast<typename Vector::Scalar>();
         Vector sorted = Vector::Zero(num_columns());
         for (const Block& block : blocks_) {
           sorted.segment(block.column, block.num_columns).noalias() +=

@@ -55,7 +55,7 @@ class HeldPreconditioner {
       constraints_->AddImpulses(mu, r);
       *lambda += mu;
     }
-    return {factorization_->BackSubstitute(std::move(y.cup)), std::move(y.bodies)};
+    return {factorization_->BackSubstitute(y.cup), std::move(y.bodies)};
   }
 
  private:

@@ -68,8 +68,8 @@ class ImplicitEuler {
   template <typename Element>
   using Packs = std::vector<PointPack<Element>>;
 
-  /// A dv, by the given packs and without masses. @param[in,out] product 3 by #nodes.
-  void AddStiffness(const Eigen::Matrix3Xd& dv, const std::vector<std::size_t>& packs,
+  /// A dv, by the chosen packs and without masses. @param[in,out] product 3 by #nodes.
+  void AddStiffness(const Eigen::Matrix3Xd& dv, const std::vector<std::size_t>& chosen,
                     Eigen::Matrix3Xd* product) const;
 
   const ElasticBody* body_;
