@@ -19,6 +19,9 @@ add_test_folder(core)
 add_test_folder(config)
 add_test_folder(physics)
 add_test_folder(validation)
+# A program of its own: it counts every allocation.
+add_test_folder(allocation)
+target_sources(allocation_test PRIVATE test/allocation/counter.cpp)
 
 # The parts of the node that need no graph.
 catkin_add_gtest(node_parts_test test/ros/actuator_test.cpp test/ros/step_schedule_test.cpp
