@@ -203,22 +203,28 @@ class Builder {
 
 CavitySurface MakeCavitySurface(const TetMesh& mesh) { return Builder(mesh).Build(); }
 
-Eigen::Matrix3Xd PointAreaVectors(const CavitySurface& surface, const Eigen::Matrix3Xd& x_W) {
+void PointAreaVectors(const CavitySurface& surface, const Eigen::Matrix3Xd& x_W,
+                      Eigen::Matrix3Xd* areas) {
   if (!surface.nodes.empty() && surface.nodes.back() >= x_W.cols()) {
     std::ostringstream message;
     message << "PointAreaVectors: x_W has " << x_W.cols() << " nodes, must have more than "
             << surface.nodes.back();
     throw std::invalid_argument(message.str());
   }
-  Eigen::Matrix3Xd areas = Eigen::Matrix3Xd::Zero(3, surface.num_points());
+  areas->setZero(3, surface.num_points());
   for (int t = 0; t < surface.triangles.cols(); ++t) {
     const auto triangle = surface.triangles.col(t);
     const Vector3d a = x_W.col(surface.nodes[Index(triangle(0))]);
     const Vector3d b = x_W.col(surface.nodes[Index(triangle(1))]);
     const Vector3d c = x_W.col(surface.nodes[Index(triangle(2))]);
     const Vector3d third = (b - a).cross(c - a) / 6.0;
-    for (int k = 0; k < 3; ++k) areas.col(triangle(k)) += third;
+    for (int k = 0; k < 3; ++k) areas->col(triangle(k)) += third;
   }
+}
+
+Eigen::Matrix3Xd PointAreaVectors(const CavitySurface& surface, const Eigen::Matrix3Xd& x_W) {
+  Eigen::Matrix3Xd areas;
+  PointAreaVectors(surface, x_W, &areas);
   return areas;
 }
 

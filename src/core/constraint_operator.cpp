@@ -57,14 +57,14 @@ void ConstraintOperator::SetContacts(const std::vector<Contact>& contacts) {
 }
 
 void ConstraintOperator::AddColumns(const std::vector<Contact>& contacts) {
-  std::vector<NodeColumn> columns;
-  const auto next_column = [&] { return num_columns_ + static_cast<int>(columns.size()); };
+  new_columns_.clear();
+  const auto next_column = [&] { return num_columns_ + static_cast<int>(new_columns_.size()); };
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     const Contact& contact = contacts[i];
     if (i >= plain_column_.size()) {
       plain_column_.push_back(MayBePlain(contact) ? next_column() : -1);
       if (MayBePlain(contact)) {
-        columns.push_back({system_->FreeRow(contact.nodes[0]) / 3, contact.normal});
+        new_columns_.push_back({system_->FreeRow(contact.nodes[0]) / 3, contact.normal});
       }
     }
     if (IsPlain(i)) continue;
@@ -73,12 +73,12 @@ void ConstraintOperator::AddColumns(const std::vector<Contact>& contacts) {
       const int row = system_->FreeRow(node);
       if (row < 0 || !columns_of_.emplace(node, next_column()).second) continue;
       for (int axis = 0; axis < 3; ++axis) {
-        columns.push_back({row / 3, Eigen::Vector3d::Unit(axis)});
+        new_columns_.push_back({row / 3, Eigen::Vector3d::Unit(axis)});
       }
     }
   }
-  cup_.Append(columns);
-  num_columns_ += static_cast<int>(columns.size());
+  cup_.Append(new_columns_);
+  num_columns_ += static_cast<int>(new_columns_.size());
 }
 
 void ConstraintOperator::SetRows(const std::vector<Contact>& contacts) {

@@ -71,16 +71,16 @@ NodeContact NarrowPhase::At(int pair, const std::vector<RigidSurface>& surfaces,
   return {node(pair), surface(pair), seen.distance, seen.normal};
 }
 
-std::vector<double> NarrowPhase::Nearest(const std::vector<RigidSurface>& surfaces,
-                                         const Eigen::Matrix3Xd& x1_W) {
-  std::vector<double> nearest(nodes_.size(), std::numeric_limits<double>::infinity());
+void NarrowPhase::Nearest(const std::vector<RigidSurface>& surfaces, const Eigen::Matrix3Xd& x1_W,
+                          std::vector<double>* nearest) {
+  nearest->assign(nodes_.size(), std::numeric_limits<double>::infinity());
   std::size_t pair = 0;
   for (std::size_t i = 0; i < nodes_.size(); ++i) {
+    double& distance = (*nearest)[i];
     for (const RigidSurface& surface : surfaces) {
-      nearest[i] = std::min(nearest[i], Look(pair++, surface, x1_W.col(nodes_[i])).distance);
+      distance = std::min(distance, Look(pair++, surface, x1_W.col(nodes_[i])).distance);
     }
   }
-  return nearest;
 }
 
 NodeContact NarrowPhase::Ahead(int pair, const Eigen::Matrix3Xd& x1_W) const {

@@ -88,6 +88,7 @@ void ContactStage::Begin(const RigidWorld& world, const Eigen::Matrix3Xd& x,
   dv_c_ = dv_c;
   b_bodies_ = b_bodies;
   h_ = h;
+  none_.SetZero(b.size(), b_bodies.size());
   finder_.Begin(world, x, h);
   FindCandidates();
 }
@@ -95,38 +96,39 @@ void ContactStage::Begin(const RigidWorld& world, const Eigen::Matrix3Xd& x,
 void ContactStage::FindCandidates() {
   // Bodies turn, and so do the rows of their contacts.
   if (candidates_of_ != solver_->generation() || world_->num_bodies() > 0) StartAfresh();
-  const TrialEnd coasting = EndOf({VectorXd::Zero(b_.size()), VectorXd::Zero(b_bodies_.size())});
-  AddCandidates(finder_.Select(coasting, [&](std::uint64_t key, double gap) {
-    if (is_candidate_.count(key) > 0) return false;
+  FindEnd(none_, &coasting_);
+  const auto wanted = [&](std::uint64_t key, double gap) {
+    if (IsCandidate(key)) return false;
     if (gap < parameters_.alarm_distance) return true;
     const auto warm_start = warm_starts_.find(key);
     return warm_start != warm_starts_.end() && warm_start->second.normal > 0.0;
-  }));
+  };
+  finder_.Select(coasting_, wanted, &selected_);
+  AddCandidates(selected_);
 }
 
 void ContactStage::StartAfresh() {
   candidates_of_ = solver_->generation();
   candidates_.clear();
-  is_candidate_.clear();
+  candidate_keys_.clear();
   operator_.Reset(solver_->factorization(), *world_, h_);
 }
 
-TrialEnd ContactStage::EndOf(const SystemVector& dv) {
-  TrialEnd end;
-  end.x_W = x0_ + h_ * (v0_ + system_->Scatter(dv.cup, dv_c_));
-  end.dV = dv.bodies;
-  end.surfaces = &world_->surfaces();
+void ContactStage::FindEnd(const SystemVector& dv, TrialEnd* end) {
+  system_->Scatter(dv.cup, dv_c_, &end->x_W);
+  end->x_W = x0_ + h_ * (v0_ + end->x_W);
+  end->dV = dv.bodies;
+  end->surfaces = &world_->surfaces();
   if (world_->num_bodies() > 0) {
     surfaces_end_ = world_->SurfacesAfter(dv.bodies, h_);
-    end.surfaces = &surfaces_end_;
+    end->surfaces = &surfaces_end_;
   }
-  return end;
 }
 
 /// Once a candidate, a pair stays one while the factorisation lasts: W grows and never flickers.
 void ContactStage::AddCandidates(const std::vector<Contact>& contacts) {
   for (const Contact& contact : contacts) {
-    is_candidate_.insert(contact.key);
+    candidate_keys_.push_back(contact.key);
     Candidate candidate;
     candidate.contact = contact;
     const auto warm_start = warm_starts_.find(contact.key);
@@ -137,6 +139,11 @@ void ContactStage::AddCandidates(const std::vector<Contact>& contacts) {
     }
     candidates_.push_back(candidate);
   }
+  std::sort(candidate_keys_.begin(), candidate_keys_.end());
+}
+
+bool ContactStage::IsCandidate(std::uint64_t key) const {
+  return std::binary_search(candidate_keys_.begin(), candidate_keys_.end(), key);
 }
 
 template <typename Measure>
@@ -154,22 +161,21 @@ void ContactStage::MeasureCandidates(const Measure& measure) {
 
 void ContactStage::UpdateOperator(StepTimings* timings) {
   const Stopwatch stopwatch(&timings->delassus);
-  std::vector<Contact> contacts;
-  contacts.reserve(candidates_.size());
-  for (const Candidate& candidate : candidates_) contacts.push_back(candidate.contact);
-  operator_.SetContacts(contacts);
+  contacts_.clear();
+  for (const Candidate& candidate : candidates_) contacts_.push_back(candidate.contact);
+  operator_.SetContacts(contacts_);
 }
 
 /// Forces of all candidates, row by row.
-VectorXd ContactStage::Stacked(Vector3d Candidate::*values) const {
-  VectorXd stacked(operator_.num_rows());
+const VectorXd& ContactStage::Stack(Vector3d Candidate::*values, VectorXd* stacked) const {
+  stacked->resize(operator_.num_rows());
   for (std::size_t i = 0; i < candidates_.size(); ++i) {
     const ContactRows& rows = operator_.rows()[i];
     const Vector3d& value = candidates_[i].*values;
-    stacked(rows.normal) = value.x();
-    if (rows.has_tangents()) stacked.segment<2>(rows.tangent()) = value.tail<2>();
+    (*stacked)(rows.normal) = value.x();
+    if (rows.has_tangents()) stacked->segment<2>(rows.tangent()) = value.tail<2>();
   }
-  return stacked;
+  return *stacked;
 }
 
 void ContactStage::SetForces(const VectorXd& lambda) {
@@ -185,11 +191,10 @@ void ContactStage::SetForces(const VectorXd& lambda) {
   }
 }
 
-/// @param[in,out] y On entry of the impulse, on exit with that of the forces' changes.
-void ContactStage::SolveCandidates(SystemVector* y, ContactSolution* solution,
-                                   StepTimings* timings) {
+/// Adds to y_, on entry that of the impulse, that of the forces' changes.
+void ContactStage::SolveCandidates(ContactSolution* solution, StepTimings* timings) {
   const Stopwatch stopwatch(&timings->solve);
-  VectorXd delta = operator_.GapChanges(*y);
+  VectorXd delta = operator_.GapChanges(y_);
   bool has_friction = false;
   for (std::size_t i = 0; i < candidates_.size(); ++i) {
     const Contact& contact = candidates_[i].contact;
@@ -200,51 +205,54 @@ void ContactStage::SolveCandidates(SystemVector* y, ContactSolution* solution,
     delta.segment<2>(rows.tangent()) +=
         ConstraintOperator::Axes(contact).rightCols<2>().transpose() * contact.slip_W;
   }
-  VectorXd lambda = Stacked(&Candidate::force);
-  const VectorXd applied = Stacked(&Candidate::applied);
-  if (!applied.isZero(0.0)) delta.noalias() -= operator_.W() * applied;
+  Stack(&Candidate::force, &lambda_);
+  Stack(&Candidate::applied, &applied_);
+  if (!applied_.isZero(0.0)) delta.noalias() -= operator_.W() * applied_;
   const McpStatistics statistics =
       has_friction
-          ? SolveFrictionalContacts(operator_.W(), delta, operator_.rows(), parameters_, &lambda)
-          : SolveContacts(operator_.W(), delta, parameters_, &lambda);
+          ? SolveFrictionalContacts(operator_.W(), delta, operator_.rows(), parameters_, &lambda_)
+          : SolveContacts(operator_.W(), delta, parameters_, &lambda_);
   solution->statistics.iterations += statistics.iterations;
   solution->statistics.residual = statistics.residual;
   solution->statistics.converged = statistics.converged;
-  SetForces(lambda);
-  operator_.AddForces(lambda - applied, y);
+  SetForces(lambda_);
+  lambda_ -= applied_;
+  operator_.AddForces(lambda_, &y_);
 }
 
 /// Makes motion and forces of the loaded contacts those of the true A.
 /// @returns false if that took too many iterations.
-bool ContactStage::Refine(const SystemVector& impulse, ContactSolution* solution) {
-  VectorXd lambda = Stacked(&Candidate::force);
-  std::vector<Index> held;
+bool ContactStage::Refine(ContactSolution* solution) {
+  Stack(&Candidate::force, &lambda_);
+  held_.clear();
   for (const ContactRows& contact : operator_.rows()) {
-    if (lambda(contact.normal) <= 0.0) continue;
-    held.push_back(contact.normal);
-    if (!Sticks(contact, lambda)) continue;
-    held.push_back(contact.tangent());
-    held.push_back(contact.tangent() + 1);
+    if (lambda_(contact.normal) <= 0.0) continue;
+    held_.push_back(contact.normal);
+    if (!Sticks(contact, lambda_)) continue;
+    held_.push_back(contact.tangent());
+    held_.push_back(contact.tangent() + 1);
   }
-  const bool converged = solver_->Refine(impulse, operator_, held, &solution->dv, &lambda);
-  SetForces(lambda);
+  const bool converged = solver_->Refine(impulse_, operator_, held_, &solution->dv, &lambda_);
+  SetForces(lambda_);
   return converged;
 }
 
 bool ContactStage::Solve(const Eigen::Matrix3Xd& load, ContactSolution* solution,
                          StepTimings* timings) {
   pressure_on_ = PressureOnObjects(load, x0_, finder_, *world_);
-  SystemVector impulse{b_ + h_ * system_->GatherFree(load), b_bodies_};
+  system_->GatherFree(load, &impulse_.cup);
+  impulse_.cup = b_ + h_ * impulse_.cup;
+  impulse_.bodies = b_bodies_;
   for (std::size_t object = 0; object < pressure_on_.size(); ++object) {
     const int body = world_->BodyOf(static_cast<int>(object));
     if (body == RigidWorld::kNone) continue;
     const ObjectLoad& on_object = pressure_on_[object];
     const Vector3d arm = world_->objects()[object].X_WO.translation() - world_->CentreOfMass(body);
-    impulse.bodies.segment<3>(6 * body) += h_ * on_object.force_W;
-    impulse.bodies.segment<3>(6 * body + 3) +=
+    impulse_.bodies.segment<3>(6 * body) += h_ * on_object.force_W;
+    impulse_.bodies.segment<3>(6 * body + 3) +=
         h_ * (on_object.torque_W + arm.cross(on_object.force_W));
   }
-  while (!SolveWithFactorization(impulse, solution, timings)) {
+  while (!SolveWithFactorization(solution, timings)) {
     const Stopwatch stopwatch(&timings->factorization);
     if (!solver_->Renew()) return false;
     FindCandidates();
@@ -254,72 +262,68 @@ bool ContactStage::Solve(const Eigen::Matrix3Xd& load, ContactSolution* solution
 }
 
 /// @returns false if the factorisation is too old for this.
-bool ContactStage::SolveWithFactorization(const SystemVector& impulse, ContactSolution* solution,
-                                          StepTimings* timings) {
-  *solution = ContactSolution();
-  const SystemVector none{VectorXd::Zero(impulse.cup.size()),
-                          VectorXd::Zero(impulse.bodies.size())};
-  solution->dv = none;
-  const TrialEnd coasting = EndOf(none);
-  MeasureCandidates([&](std::uint64_t key) { return finder_.Ahead(key, coasting); });
+bool ContactStage::SolveWithFactorization(ContactSolution* solution, StepTimings* timings) {
+  solution->statistics = McpStatistics();
+  solution->dv = none_;
+  MeasureCandidates([&](std::uint64_t key) { return finder_.Ahead(key, coasting_); });
   // An earlier factorisation errs by what it is asked to bridge: by less from the last forces on.
   for (Candidate& candidate : candidates_) {
     candidate.applied = solver_->current() ? Vector3d::Zero().eval() : candidate.force;
   }
   for (int pass = 0; pass < kMaxPasses; ++pass) {
     UpdateOperator(timings);
-    SystemVector y = none;
+    y_ = none_;
     if (pass == 0) {
       const Stopwatch stopwatch(&timings->free_motion);
-      SystemVector with_forces = impulse;
-      operator_.AddImpulses(Stacked(&Candidate::applied), &with_forces);
-      y.cup = solver_->factorization().Eliminate(with_forces.cup);
-      y.bodies = operator_.BodyVelocities(with_forces.bodies);
+      with_forces_ = impulse_;
+      operator_.AddImpulses(Stack(&Candidate::applied, &applied_), &with_forces_);
+      y_.cup = solver_->factorization().Eliminate(with_forces_.cup);
+      y_.bodies = operator_.BodyVelocities(with_forces_.bodies);
     }
-    SolveCandidates(&y, solution, timings);
-    TrialEnd end;
+    SolveCandidates(solution, timings);
     {
       const Stopwatch stopwatch(&timings->correction);
-      solution->dv.cup += solver_->factorization().BackSubstitute(y.cup);
-      solution->dv.bodies += y.bodies;
-      if (!solver_->current() && (pass == kMaxStalePasses || !Refine(impulse, solution))) {
+      solution->dv.cup += solver_->factorization().BackSubstitute(y_.cup);
+      solution->dv.bodies += y_.bodies;
+      if (!solver_->current() && (pass == kMaxStalePasses || !Refine(solution))) {
         return false;
       }
-      end = EndOf(solution->dv);
+      FindEnd(solution->dv, &end_);
     }
 
     const Stopwatch stopwatch(&timings->narrow_phase);
-    MeasureEnd(end, solution);
-    solution->x_W = end.x_W;
+    MeasureEnd(end_, solution);
+    solution->x_W = end_.x_W;
     const double bound =
         std::min(parameters_.acceptable_residual,
                  std::max(10.0 * parameters_.tolerance, 2.0 * solution->statistics.residual));
-    const std::vector<Contact> missed = finder_.Select(end, [&](std::uint64_t key, double gap) {
-      return gap < parameters_.alarm_distance && is_candidate_.count(key) == 0;
-    });
-    const bool passed = std::any_of(missed.begin(), missed.end(),
+    const auto missed = [&](std::uint64_t key, double gap) {
+      return gap < parameters_.alarm_distance && !IsCandidate(key);
+    };
+    finder_.Select(end_, missed, &selected_);
+    const bool passed = std::any_of(selected_.begin(), selected_.end(),
                                     [&](const Contact& contact) { return contact.gap < -bound; });
     if (!passed && solution->error <= bound) break;
     // Forces with friction that are not found from here are hardly found from a little further.
     if (!solution->statistics.converged && !operator_.plain() && pass >= kMaxPassesAstray) break;
 
-    MeasureCandidates([&](std::uint64_t key) { return finder_.At(key, end); });
+    MeasureCandidates([&](std::uint64_t key) { return finder_.At(key, end_); });
     for (Candidate& candidate : candidates_) candidate.applied = candidate.force;
-    if (passed) AddCandidates(missed);
+    if (passed) AddCandidates(selected_);
   }
   return true;
 }
 
 void ContactStage::MeasureEnd(const TrialEnd& end, ContactSolution* solution) {
   finder_.MoveTo(end);
-  const std::vector<double> nearest = finder_.Nearest(end);
+  finder_.Nearest(end, &nearest_);
   solution->distance.assign(static_cast<std::size_t>(x0_.cols()),
                             std::numeric_limits<double>::infinity());
   double deepest = 0.0;
   for (std::size_t i = 0; i < surface_nodes_.size(); ++i) {
     const int node = surface_nodes_[i];
-    solution->distance[static_cast<std::size_t>(node)] = nearest[i];
-    if (system_->FreeRow(node) >= 0) deepest = std::min(deepest, nearest[i]);
+    solution->distance[static_cast<std::size_t>(node)] = nearest_[i];
+    if (system_->FreeRow(node) >= 0) deepest = std::min(deepest, nearest_[i]);
   }
   solution->max_penetration = -deepest;
   solution->error = -deepest;
@@ -346,6 +350,7 @@ void ContactStage::MeasureEnd(const TrialEnd& end, ContactSolution* solution) {
 }
 
 void ContactStage::Report(ContactSolution* solution) const {
+  solution->num_contacts = 0;
   solution->num_candidates = static_cast<int>(candidates_.size());
   solution->lambda.setZero(x0_.cols());
   solution->objects = pressure_on_;

@@ -9,28 +9,27 @@ namespace {
 /// Nearer than this the direction from the nearest point is rounding alone. [m]
 constexpr double kTouching = 1e-10;
 
-std::vector<Eigen::AlignedBox3d> BoxesOf(const Eigen::Matrix3Xi& triangles,
-                                         const Eigen::Matrix3Xd& x) {
-  std::vector<Eigen::AlignedBox3d> boxes(static_cast<std::size_t>(triangles.cols()));
-  for (Eigen::Index t = 0; t < triangles.cols(); ++t) {
-    Eigen::AlignedBox3d& box = boxes[static_cast<std::size_t>(t)];
-    for (int k = 0; k < 3; ++k) box.extend(x.col(triangles(k, t)));
-  }
-  return boxes;
-}
-
 }  // namespace
 
 CupFaces::CupFaces(const TetMesh& mesh)
     : triangles_(SplitFaces(mesh.boundary_faces)),
       topology_(triangles_, mesh.num_nodes()),
-      x_W_(mesh.nodes),
-      boxes_(BoxesOf(triangles_, x_W_)),
-      tree_(boxes_) {}
+      x_W_(mesh.nodes) {
+  FitBoxes();
+  tree_ = BoxTree(boxes_);
+}
+
+void CupFaces::FitBoxes() {
+  boxes_.assign(static_cast<std::size_t>(triangles_.cols()), Eigen::AlignedBox3d());
+  for (Eigen::Index t = 0; t < triangles_.cols(); ++t) {
+    Eigen::AlignedBox3d& box = boxes_[static_cast<std::size_t>(t)];
+    for (int k = 0; k < 3; ++k) box.extend(x_W_.col(triangles_(k, t)));
+  }
+}
 
 void CupFaces::Update(const Eigen::Matrix3Xd& x_W) {
   x_W_ = x_W;
-  boxes_ = BoxesOf(triangles_, x_W_);
+  FitBoxes();
   tree_.Refit(boxes_);
 }
 

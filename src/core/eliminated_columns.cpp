@@ -1,5 +1,6 @@
 #include "vacuum_gripper_sim/core/eliminated_columns.h"
 
+#include <algorithm>
 #include <type_traits>
 
 namespace vacuum_gripper_sim {
@@ -11,7 +12,30 @@ namespace {
 template <typename Values>
 using ScalarOf = typename std::decay_t<Values>::value_type;
 
+/// Blocks in double precision, one after the other in the same memory.
+class WideBlock {
+ public:
+  explicit WideBlock(std::size_t capacity) : memory_(capacity) {}
+
+  template <typename Block>
+  Eigen::Map<const Eigen::MatrixXd> operator()(const Block& block) {
+    Eigen::Map<Eigen::MatrixXd>(memory_.data(), block.rows(), block.cols()) =
+        block.template cast<double>();
+    return {memory_.data(), block.rows(), block.cols()};
+  }
+
+ private:
+  std::vector<double> memory_;
+};
+
 }  // namespace
+
+std::size_t EliminatedColumns::LargestBlock() const {
+  Index largest = 0;
+  for (const Block& block : blocks_)
+    largest = std::max(largest, block.num_rows * block.num_columns);
+  return static_cast<std::size_t>(largest);
+}
 
 Eigen::VectorXd EliminatedColumns::TransposeTimes(const Eigen::VectorXd& y) const {
   return std::visit(
@@ -40,11 +64,12 @@ void EliminatedColumns::AddTimes(const Eigen::VectorXd& x, Eigen::VectorXd* y) c
         for (Index k = 0; k < sorted.size(); ++k) {
           sorted(k) = static_cast<typename Vector::Scalar>(x(order_[static_cast<std::size_t>(k)]));
         }
-        Vector product;
+        Vector product(y->size());
         for (const Block& block : blocks_) {
-          product.noalias() =
+          auto rows = product.head(block.num_rows);
+          rows.noalias() =
               Values(values, block).transpose() * sorted.segment(block.column, block.num_columns);
-          y->segment(block.row, block.num_rows) += product.template cast<double>();
+          y->segment(block.row, block.num_rows) += rows.template cast<double>();
         }
       },
       values_);
@@ -53,12 +78,13 @@ void EliminatedColumns::AddTimes(const Eigen::VectorXd& x, Eigen::VectorXd* y) c
 /// In double precision whatever Y's: contacts at one node differ by less than single rounding.
 Eigen::MatrixXd EliminatedColumns::Gram() const {
   Eigen::MatrixXd sorted = Eigen::MatrixXd::Zero(num_columns(), num_columns());
+  WideBlock wide(LargestBlock());
   std::visit(
       [&](const auto& values) {
         for (const Block& block : blocks_) {
           sorted.block(block.column, block.column, block.num_columns, block.num_columns)
               .selfadjointView<Eigen::Lower>()
-              .rankUpdate(Values(values, block).template cast<double>().eval());
+              .rankUpdate(wide(Values(values, block)));
         }
       },
       values_);
@@ -68,6 +94,7 @@ Eigen::MatrixXd EliminatedColumns::Gram() const {
 
 Eigen::MatrixXd EliminatedColumns::TransposeTimes(const EliminatedColumns& other) const {
   Eigen::MatrixXd sorted = Eigen::MatrixXd::Zero(num_columns(), other.num_columns());
+  WideBlock wide(LargestBlock()), their_wide(other.LargestBlock());
   std::visit(
       [&](const auto& values) {
         const auto& their_values = std::get<std::decay_t<decltype(values)>>(other.values_);
@@ -78,8 +105,7 @@ Eigen::MatrixXd EliminatedColumns::TransposeTimes(const EliminatedColumns& other
           if (theirs->row != ours.row) continue;
           sorted.block(ours.column, theirs->column, ours.num_columns, theirs->num_columns)
               .noalias() +=
-              Values(values, ours).template cast<double>().eval() *
-              Values(their_values, *theirs).transpose().template cast<double>().eval();
+              wide(Values(values, ours)) * their_wide(Values(their_values, *theirs)).transpose();
         }
       },
       values_);

@@ -32,6 +32,8 @@ ImplicitEuler::ImplicitEuler(const ElasticBody& body, const std::vector<int>& cl
   for (int node = 0; node < body.num_nodes(); ++node) {
     if (FreeRow(node) >= 0) free_nodes_.push_back(node);
   }
+  no_dv_f_.setZero(3 * num_free());
+  no_dv_c_.setZero(3, static_cast<Eigen::Index>(clamped_nodes_.size()));
   std::visit([&](const auto& elements) { packs_ = MakePointPacks(elements); }, body.elements());
   const auto is_clamped = [&](int node) { return FreeRow(node) < 0; };
   std::visit(
@@ -106,51 +108,64 @@ double ImplicitEuler::ImpulseScale() const {
   return h_ * kStandardGravity * std::sqrt(squared);
 }
 
-Eigen::VectorXd ImplicitEuler::Multiply(const Eigen::VectorXd& dv_f) const {
-  const Eigen::Matrix3Xd dv =
-      Scatter(dv_f, Eigen::Matrix3Xd::Zero(3, static_cast<Eigen::Index>(clamped_nodes_.size())));
-  Eigen::Matrix3Xd product = dv * (linearization_.mass_factor * body_->masses()).asDiagonal();
-  AddStiffness(dv, all_packs_, &product);
-  return GatherFree(product);
+const Eigen::VectorXd& ImplicitEuler::Multiply(const Eigen::VectorXd& dv_f) {
+  Scatter(dv_f, no_dv_c_, &dv_);
+  product_ = dv_ * (linearization_.mass_factor * body_->masses()).asDiagonal();
+  AddStiffness(dv_, all_packs_, &product_);
+  GatherFree(product_, &free_result_);
+  return free_result_;
 }
 
-Eigen::VectorXd ImplicitEuler::FreeRightHandSide(const Eigen::Matrix3Xd& dv_c) const {
-  const Eigen::Matrix3Xd dv = Scatter(Eigen::VectorXd::Zero(3 * num_free()), dv_c);
-  Eigen::Matrix3Xd product = Eigen::Matrix3Xd::Zero(3, dv.cols());
-  AddStiffness(dv, clamped_packs_, &product);
-  return GatherFree(b_ - product);
+const Eigen::VectorXd& ImplicitEuler::FreeRightHandSide(const Eigen::Matrix3Xd& dv_c) {
+  Scatter(no_dv_f_, dv_c, &dv_);
+  product_.setZero(3, dv_.cols());
+  AddStiffness(dv_, clamped_packs_, &product_);
+  product_ = b_ - product_;
+  GatherFree(product_, &free_result_);
+  return free_result_;
 }
 
-Eigen::Matrix3Xd ImplicitEuler::ClampedReaction(const Eigen::VectorXd& dv_f,
-                                                const Eigen::Matrix3Xd& dv_c) const {
-  const Eigen::Matrix3Xd dv = Scatter(dv_f, dv_c);
-  Eigen::Matrix3Xd product = dv * (linearization_.mass_factor * body_->masses()).asDiagonal();
-  AddStiffness(dv, clamped_packs_, &product);
-  Eigen::Matrix3Xd reaction(3, dv_c.cols());
+const Eigen::Matrix3Xd& ImplicitEuler::ClampedReaction(const Eigen::VectorXd& dv_f,
+                                                       const Eigen::Matrix3Xd& dv_c) {
+  Scatter(dv_f, dv_c, &dv_);
+  product_ = dv_ * (linearization_.mass_factor * body_->masses()).asDiagonal();
+  AddStiffness(dv_, clamped_packs_, &product_);
+  reaction_.resize(3, dv_c.cols());
   for (Eigen::Index i = 0; i < dv_c.cols(); ++i) {
     const int node = clamped_nodes_[static_cast<std::size_t>(i)];
-    reaction.col(i) = (product.col(node) - b_.col(node)) / h_;
+    reaction_.col(i) = (product_.col(node) - b_.col(node)) / h_;
   }
-  return reaction;
+  return reaction_;
+}
+
+void ImplicitEuler::GatherFree(const Eigen::Matrix3Xd& values, Eigen::VectorXd* gathered) const {
+  gathered->resize(3 * num_free());
+  for (int i = 0; i < num_free(); ++i) {
+    gathered->segment<3>(3 * i) = values.col(free_nodes_[static_cast<std::size_t>(i)]);
+  }
 }
 
 Eigen::VectorXd ImplicitEuler::GatherFree(const Eigen::Matrix3Xd& values) const {
-  Eigen::VectorXd gathered(3 * num_free());
-  for (int i = 0; i < num_free(); ++i) {
-    gathered.segment<3>(3 * i) = values.col(free_nodes_[static_cast<std::size_t>(i)]);
-  }
+  Eigen::VectorXd gathered;
+  GatherFree(values, &gathered);
   return gathered;
+}
+
+void ImplicitEuler::Scatter(const Eigen::VectorXd& values_f, const Eigen::Matrix3Xd& values_c,
+                            Eigen::Matrix3Xd* scattered) const {
+  scattered->resize(3, body_->num_nodes());
+  for (int i = 0; i < num_free(); ++i) {
+    scattered->col(free_nodes_[static_cast<std::size_t>(i)]) = values_f.segment<3>(3 * i);
+  }
+  for (std::size_t i = 0; i < clamped_nodes_.size(); ++i) {
+    scattered->col(clamped_nodes_[i]) = values_c.col(static_cast<Eigen::Index>(i));
+  }
 }
 
 Eigen::Matrix3Xd ImplicitEuler::Scatter(const Eigen::VectorXd& values_f,
                                         const Eigen::Matrix3Xd& values_c) const {
-  Eigen::Matrix3Xd scattered(3, body_->num_nodes());
-  for (int i = 0; i < num_free(); ++i) {
-    scattered.col(free_nodes_[static_cast<std::size_t>(i)]) = values_f.segment<3>(3 * i);
-  }
-  for (std::size_t i = 0; i < clamped_nodes_.size(); ++i) {
-    scattered.col(clamped_nodes_[i]) = values_c.col(static_cast<Eigen::Index>(i));
-  }
+  Eigen::Matrix3Xd scattered;
+  Scatter(values_f, values_c, &scattered);
   return scattered;
 }
 

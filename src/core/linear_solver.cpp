@@ -155,35 +155,33 @@ bool LinearSolver::FactorizeWith(Precision precision) {
   return usable_;
 }
 
-VectorXd LinearSolver::Residual(const VectorXd& b, const VectorXd& dv) const {
-  return b - system_->Multiply(dv);
-}
-
 bool LinearSolver::Refine(const SystemVector& b, const ConstraintOperator& constraints,
                           const std::vector<Index>& held, SystemVector* dv, VectorXd* lambda) {
   const double bound = parameters_.tolerance * std::max(b.cup.norm(), system_->ImpulseScale());
-  SystemVector r{Residual(b.cup, dv->cup), b.bodies - constraints.BodyImpulses(dv->bodies)};
-  constraints.AddImpulses(*lambda, &r);
-  if (r.norm() <= bound) return true;
+  r_.cup = b.cup - system_->Multiply(dv->cup);
+  r_.bodies = b.bodies - constraints.BodyImpulses(dv->bodies);
+  constraints.AddImpulses(*lambda, &r_);
+  if (r_.norm() <= bound) return true;
 
   const HeldPreconditioner preconditioner(factorization_, constraints, held);
   if (!preconditioner.usable()) return false;
-  SystemVector p{VectorXd::Zero(b.cup.size()), VectorXd::Zero(b.bodies.size())};
+  p_.SetZero(b.cup.size(), b.bodies.size());
   double rz = 1.0;
-  const double start = r.norm();
-  for (int i = 0; !Hopeless(i, start, r.norm(), bound); ++i) {
+  const double start = r_.norm();
+  for (int i = 0; !Hopeless(i, start, r_.norm(), bound); ++i) {
     ++iterations_;
-    const SystemVector z = preconditioner.Solve(&r, lambda);
-    if (r.norm() <= bound) return true;
-    const double rz_before = std::exchange(rz, r.dot(z));
-    p *= rz / rz_before;
-    p.Add(1.0, z);
-    const SystemVector Ap{system_->Multiply(p.cup), constraints.BodyImpulses(p.bodies)};
-    const double pAp = p.dot(Ap);
+    const SystemVector z = preconditioner.Solve(&r_, lambda);
+    if (r_.norm() <= bound) return true;
+    const double rz_before = std::exchange(rz, r_.dot(z));
+    p_ *= rz / rz_before;
+    p_.Add(1.0, z);
+    Ap_.cup = system_->Multiply(p_.cup);
+    Ap_.bodies = constraints.BodyImpulses(p_.bodies);
+    const double pAp = p_.dot(Ap_);
     if (!(pAp > 0.0)) return false;  // A is not positive definite
-    dv->Add(rz / pAp, p);
-    r.Add(-rz / pAp, Ap);
-    if (r.norm() <= bound) return true;
+    dv->Add(rz / pAp, p_);
+    r_.Add(-rz / pAp, Ap_);
+    if (r_.norm() <= bound) return true;
   }
   return false;
 }

@@ -38,8 +38,8 @@ McpStatistics GaussSeidel(const Eigen::MatrixXd& W, const Eigen::VectorXd& delta
 }
 
 /// The forces that close the gaps of the contacts in `active`, zero elsewhere.
-Eigen::VectorXd ForcesOfActive(const Eigen::MatrixXd& W, const Eigen::VectorXd& delta,
-                               const std::vector<Eigen::Index>& active) {
+void SetForcesOfActive(const Eigen::MatrixXd& W, const Eigen::VectorXd& delta,
+                       const std::vector<Eigen::Index>& active, Eigen::VectorXd* lambda) {
   const auto size = static_cast<Eigen::Index>(active.size());
   Eigen::MatrixXd W_active(size, size);
   Eigen::VectorXd right(size);
@@ -51,10 +51,10 @@ Eigen::VectorXd ForcesOfActive(const Eigen::MatrixXd& W, const Eigen::VectorXd& 
     }
     W_active(j, j) *= 1.0 + kContactRegularization;
   }
-  const Eigen::VectorXd forces = W_active.selfadjointView<Eigen::Lower>().llt().solve(right).eval();
-  Eigen::VectorXd lambda = Eigen::VectorXd::Zero(delta.size());
-  for (Eigen::Index j = 0; j < size; ++j) lambda(active[static_cast<std::size_t>(j)]) = forces(j);
-  return lambda;
+  const Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> factor(W_active);  // in its place
+  factor.solveInPlace(right);
+  lambda->setZero();
+  for (Eigen::Index j = 0; j < size; ++j) (*lambda)(active[static_cast<std::size_t>(j)]) = right(j);
 }
 
 McpStatistics ActiveSet(const Eigen::MatrixXd& W, const Eigen::VectorXd& delta,
@@ -70,19 +70,22 @@ McpStatistics ActiveSet(const Eigen::MatrixXd& W, const Eigen::VectorXd& delta,
   McpStatistics statistics;
   std::size_t record = static_cast<std::size_t>(size) + 1;
   int patience = kPatience;
+  std::vector<Eigen::Index> active, violations;
+  active.reserve(static_cast<std::size_t>(size));
+  Eigen::VectorXd delta_end;
   while (true) {
-    std::vector<Eigen::Index> active;
+    active.clear();
     for (Eigen::Index i = 0; i < size; ++i) {
       if (is_active[static_cast<std::size_t>(i)]) active.push_back(i);
     }
-    *lambda = ForcesOfActive(W, delta, active);
-    Eigen::VectorXd delta_end = delta;
+    SetForcesOfActive(W, delta, active, lambda);
+    delta_end = delta;
     for (const Eigen::Index i : active) delta_end.noalias() += (*lambda)(i)*W.col(i);
     ++statistics.iterations;
 
     // Signs are decided well below the tolerance, so that it holds for the residual.
     const double threshold = 0.1 * parameters.tolerance;
-    std::vector<Eigen::Index> violations;
+    violations.clear();
     for (Eigen::Index i = 0; i < size; ++i) {
       const double violation =
           is_active[static_cast<std::size_t>(i)] ? -(*lambda)(i)*W(i, i) : -delta_end(i);
@@ -90,7 +93,9 @@ McpStatistics ActiveSet(const Eigen::MatrixXd& W, const Eigen::VectorXd& delta,
     }
     if (violations.empty() || statistics.iterations >= parameters.max_iterations) {
       *lambda = lambda->cwiseMax(0.0);
-      statistics.residual = Residual(W, delta + W * *lambda, *lambda);
+      delta_end = delta;
+      delta_end.noalias() += W * *lambda;
+      statistics.residual = Residual(W, delta_end, *lambda);
       statistics.converged = statistics.residual <= parameters.tolerance;
       return statistics;
     }

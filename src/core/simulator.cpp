@@ -113,11 +113,11 @@ class Simulator::Implementation {
   StepResult result_;
 
  private:
-  Eigen::Matrix3Xd ClampedVelocityChange(const Eigen::Isometry3d& X_WM) const;
+  void FindClampedVelocityChange(const Eigen::Isometry3d& X_WM);
   bool Advance(const Command& command);
   std::string DescribeJump() const;
-  void ReportWrench(const SuctionSolution& solution, const Eigen::Matrix3Xd& dv_c);
-  void ReportCavity(const SuctionSolution& solution);
+  void ReportWrench();
+  void ReportCavity();
   void ReportOpening();
   void ReportCavitySize();
   void ReportObjects(const std::vector<ObjectLoad>& loads);
@@ -129,6 +129,13 @@ class Simulator::Implementation {
   ContactStage stage_;
   Suction suction_;
   State state_;
+  State last_good_;  // that an undone step goes back to
+
+  // Of the last step.
+  Eigen::Matrix3Xd dv_c_;  // of the clamped nodes [m/s]
+  SuctionSolution solution_;
+  Eigen::Matrix3Xd dv_W_;          // of all nodes [m/s]
+  Eigen::Matrix3Xd area_vectors_;  // of the cavity points at its end [m^2]
 };
 
 void Simulator::Implementation::SetObjects(std::vector<RigidObject> objects) {
@@ -159,21 +166,19 @@ void Simulator::Implementation::Reset(const Eigen::Isometry3d& X_WM) {
 }
 
 /// The mount's nodes end the step where the commanded pose puts them.
-Eigen::Matrix3Xd Simulator::Implementation::ClampedVelocityChange(
-    const Eigen::Isometry3d& X_WM) const {
+void Simulator::Implementation::FindClampedVelocityChange(const Eigen::Isometry3d& X_WM) {
   const std::vector<int>& clamped = system_.clamped_nodes();
-  Eigen::Matrix3Xd dv_c(3, static_cast<Eigen::Index>(clamped.size()));
+  dv_c_.resize(3, static_cast<Eigen::Index>(clamped.size()));
   for (std::size_t i = 0; i < clamped.size(); ++i) {
     const int node = clamped[i];
     const Eigen::Vector3d target_W = X_WM * rest_M_.col(node);
-    dv_c.col(static_cast<Eigen::Index>(i)) =
+    dv_c_.col(static_cast<Eigen::Index>(i)) =
         (target_W - state_.x_W.col(node)) / parameters_.time_step - state_.v_W.col(node);
   }
-  return dv_c;
 }
 
 void Simulator::Implementation::Step(const Command& command) {
-  State last_good = state_;
+  last_good_ = state_;
   result_.timings = StepTimings();
   result_.outcome = StepOutcome::kOk;
   result_.message.clear();
@@ -183,7 +188,7 @@ void Simulator::Implementation::Step(const Command& command) {
     done = Advance(command);
   }
   if (!done) {
-    state_ = std::move(last_good);
+    std::swap(state_, last_good_);
     stage_.ForgetForces();
   }
   result_.time += parameters_.time_step;
@@ -228,7 +233,7 @@ bool Simulator::Implementation::Advance(const Command& command) {
   if (!jump.empty()) return fail(StepOutcome::kUnconverged, jump);
 
   // 1) Free motion: equation (2) with lambda = 0.
-  const Eigen::Matrix3Xd dv_c = ClampedVelocityChange(command.X_WM);
+  FindClampedVelocityChange(command.X_WM);
   {
     const Stopwatch stopwatch(&timings->assembly);
     system_.Linearize(state_.x_W, state_.v_W, h, parameters_.damping, parameters_.gravity);
@@ -239,23 +244,23 @@ bool Simulator::Implementation::Advance(const Command& command) {
       return fail(StepOutcome::kNonFinite, "A is not positive definite");
     }
   }
-  const Eigen::VectorXd b = system_.FreeRightHandSide(dv_c);
+  const Eigen::VectorXd& b = system_.FreeRightHandSide(dv_c_);
   if (!b.allFinite()) return fail(StepOutcome::kNonFinite, "the free motion is not finite");
 
   // 2) to 4) Classification, constraint directions, W and the mixed complementarity problem.
-  SuctionSolution solution;
-  stage_.Begin(world_, state_.x_W, state_.v_W, b, dv_c, world_.FreeImpulse(parameters_.gravity, h),
+  const ContactSolution& contact = solution_.contact;
+  stage_.Begin(world_, state_.x_W, state_.v_W, b, dv_c_, world_.FreeImpulse(parameters_.gravity, h),
                h);
-  if (!suction_.Solve(state_.x_W, command.pressure_setpoint, h, &stage_, &state_.grip, &solution,
+  if (!suction_.Solve(state_.x_W, command.pressure_setpoint, h, &stage_, &state_.grip, &solution_,
                       timings)) {
     return fail(StepOutcome::kNonFinite, "A is not positive definite");
   }
-  if (!solution.contact.x_W.allFinite() || !solution.contact.dv.bodies.allFinite()) {
+  if (!contact.x_W.allFinite() || !contact.dv.bodies.allFinite()) {
     return fail(StepOutcome::kNonFinite, "the corrected motion is not finite");
   }
-  result_.solver_iterations = solution.contact.statistics.iterations;
-  result_.solver_residual = solution.contact.statistics.residual;
-  const double missed = std::max(solution.contact.error, solution.contact.statistics.residual);
+  result_.solver_iterations = contact.statistics.iterations;
+  result_.solver_residual = contact.statistics.residual;
+  const double missed = std::max(contact.error, contact.statistics.residual);
   if (!(missed <= parameters_.contact.acceptable_residual)) {
     std::ostringstream message;
     message << "contact error " << missed << " m is above contact.acceptable_residual = "
@@ -264,29 +269,29 @@ bool Simulator::Implementation::Advance(const Command& command) {
   }
 
   // 5) Motion correction.
-  state_.v_W += system_.Scatter(solution.contact.dv.cup, dv_c);
-  state_.x_W = solution.contact.x_W;
-  world_.Advance(solution.contact.dv.bodies, h);
+  system_.Scatter(contact.dv.cup, dv_c_, &dv_W_);
+  state_.v_W += dv_W_;
+  state_.x_W = contact.x_W;
+  world_.Advance(contact.dv.bodies, h);
 
   const Stopwatch stopwatch(&timings->correction);
   result_.X_WM = command.X_WM;
   result_.setpoint = command.pressure_setpoint;
-  ReportWrench(solution, dv_c);
-  ReportCavity(solution);
-  ReportObjects(solution.contact.objects);
+  ReportWrench();
+  ReportCavity();
+  ReportObjects(contact.objects);
   return true;
 }
 
 /// Force of the cup on its mount: what holds the clamped nodes, turned round. See ImplicitEuler.
-void Simulator::Implementation::ReportWrench(const SuctionSolution& solution,
-                                             const Eigen::Matrix3Xd& dv_c) {
-  const Eigen::Matrix3Xd reaction = system_.ClampedReaction(solution.contact.dv.cup, dv_c);
+void Simulator::Implementation::ReportWrench() {
+  const Eigen::Matrix3Xd& reaction = system_.ClampedReaction(solution_.contact.dv.cup, dv_c_);
   Eigen::Vector3d force_W = Eigen::Vector3d::Zero();
   Eigen::Vector3d torque_W = Eigen::Vector3d::Zero();
   for (Eigen::Index i = 0; i < reaction.cols(); ++i) {
     const int node = system_.clamped_nodes()[static_cast<std::size_t>(i)];
     // Pressure loads clamped rows too; contacts do not: clamped nodes are never candidates.
-    const Eigen::Vector3d on_mount_W = -(reaction.col(i) - solution.load.col(node));
+    const Eigen::Vector3d on_mount_W = -(reaction.col(i) - solution_.load.col(node));
     force_W += on_mount_W;
     torque_W += (state_.x_W.col(node) - result_.X_WM.translation()).cross(on_mount_W);
   }
@@ -295,7 +300,8 @@ void Simulator::Implementation::ReportWrench(const SuctionSolution& solution,
   result_.torque_M = R_MW * torque_W;
 }
 
-void Simulator::Implementation::ReportCavity(const SuctionSolution& solution) {
+void Simulator::Implementation::ReportCavity() {
+  const ContactSolution& contact = solution_.contact;
   const GripState& grip = state_.grip;
   result_.gauge_pressure = grip.pressure;
   if (grip.sealed) {
@@ -306,18 +312,18 @@ void Simulator::Implementation::ReportCavity(const SuctionSolution& solution) {
   }
 
   result_.x_W = state_.x_W;
-  result_.classification = solution.classification;
-  result_.bottleneck_gap = solution.classification.bottleneck_gap;
+  result_.classification = solution_.classification;
+  result_.bottleneck_gap = solution_.classification.bottleneck_gap;
   for (std::size_t i = 0; i < cavity_.nodes.size(); ++i) {
-    result_.gap[i] = solution.contact.distance[static_cast<std::size_t>(cavity_.nodes[i])];
+    result_.gap[i] = contact.distance[static_cast<std::size_t>(cavity_.nodes[i])];
   }
   ReportOpening();
   ReportCavitySize();
-  result_.contact_force = solution.contact.lambda.sum();
-  result_.friction_force = solution.contact.friction_force;
-  result_.num_contacts = static_cast<std::uint32_t>(solution.contact.num_contacts);
-  result_.num_candidates = static_cast<std::uint32_t>(solution.contact.num_candidates);
-  result_.max_penetration = solution.contact.max_penetration;
+  result_.contact_force = contact.lambda.sum();
+  result_.friction_force = contact.friction_force;
+  result_.num_contacts = static_cast<std::uint32_t>(contact.num_contacts);
+  result_.num_candidates = static_cast<std::uint32_t>(contact.num_candidates);
+  result_.max_penetration = contact.max_penetration;
   result_.linear_iterations = solver_.iterations();
   result_.factorizations = solver_.factorizations();
 }
@@ -346,13 +352,13 @@ void Simulator::Implementation::ReportOpening() {
 /// Area and volume of what the pressure acts on if the cavity is sealed.
 void Simulator::Implementation::ReportCavitySize() {
   const std::vector<bool>& wet = result_.classification.wet;
-  const Eigen::Matrix3Xd area_vectors = PointAreaVectors(cavity_, state_.x_W);
+  PointAreaVectors(cavity_, state_.x_W, &area_vectors_);
   Eigen::Vector3d wet_area_W = Eigen::Vector3d::Zero();
   for (std::size_t i = 0; i < wet.size(); ++i) {
-    if (wet[i]) wet_area_W += area_vectors.col(static_cast<Eigen::Index>(i));
+    if (wet[i]) wet_area_W += area_vectors_.col(static_cast<Eigen::Index>(i));
   }
   result_.cavity_area = std::abs(wet_area_W.dot(result_.X_WM.linear().col(2)));
-  result_.cavity_volume = WetVolume(cavity_, wet, state_.x_W, area_vectors);
+  result_.cavity_volume = WetVolume(cavity_, wet, state_.x_W, area_vectors_);
 }
 
 Simulator::Simulator(TetMesh mesh, const SimulatorParameters& parameters,

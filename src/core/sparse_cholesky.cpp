@@ -159,6 +159,7 @@ EliminatedColumns SparseCholesky::LayOutColumns(const std::vector<NodeColumn>& B
                    [&](int a, int b) { return start(a) < start(b); });
 
   block_of->assign(supernodes_.size(), -1);
+  Y.blocks_.reserve(supernodes_.size());
   std::size_t offset = 0;
   std::size_t end = 0;
   for (std::size_t s = 0; s < supernodes_.size(); ++s) {

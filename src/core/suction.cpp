@@ -11,33 +11,35 @@ Suction::Suction(const CavitySurface& cavity, const SealParameters& seal,
                  const RegulatorParameters& regulator, double young_modulus)
     : cavity_(&cavity),
       edge_ways_(cavity),
+      classifier_(cavity),
       seal_(seal),
       regulator_(regulator),
       young_modulus_(young_modulus) {}
 
-Classification Suction::ClassifyEnd(const ContactStage& stage, const ContactSolution& contact,
-                                    const std::vector<bool>& was_wet) const {
+void Suction::ClassifyEnd(const ContactStage& stage, const ContactSolution& contact,
+                          const std::vector<bool>& was_wet, Classification* classification) {
   // Loaded points are ordered by the depth by which an elastic half space under a patch of the
   // point's size would be indented, p sqrt(a) / E: a length, as a gap is. Only its order decides.
-  std::vector<double> phi(cavity_->nodes.size());
-  for (std::size_t i = 0; i < phi.size(); ++i) {
+  phi_.resize(cavity_->nodes.size());
+  for (std::size_t i = 0; i < phi_.size(); ++i) {
     const int node = cavity_->nodes[i];
     const double force = contact.lambda(node);
     if (force > 0.0) {
       const double area =
           std::max(area_vectors_.col(static_cast<Eigen::Index>(i)).norm(), 1e-12);  // [m^2]
-      phi[i] = -force / (young_modulus_ * std::sqrt(area));
+      phi_[i] = -force / (young_modulus_ * std::sqrt(area));
     } else {
-      phi[i] = contact.distance[static_cast<std::size_t>(node)];
+      phi_[i] = contact.distance[static_cast<std::size_t>(node)];
     }
   }
-  return Classify(*cavity_, phi, *seal_.open_gap, was_wet,
-                  edge_ways_.Find(phi, *seal_.open_gap, contact.x_W,
-                                  [&](const Eigen::Vector3d& p_W) { return stage.Distance(p_W); }));
+  classification->edge_ways =
+      edge_ways_.Find(phi_, *seal_.open_gap, contact.x_W,
+                      [&](const Eigen::Vector3d& p_W) { return stage.Distance(p_W); });
+  classifier_.Classify(phi_, *seal_.open_gap, was_wet, classification);
 }
 
 bool Suction::SolveWith(const std::vector<bool>& wet, double pressure, ContactStage* stage,
-                        SuctionSolution* solution, StepTimings* timings) const {
+                        SuctionSolution* solution, StepTimings* timings) {
   solution->load.setZero(3, num_nodes_);
   if (pressure != 0.0) {
     for (std::size_t i = 0; i < wet.size(); ++i) {
@@ -48,20 +50,21 @@ bool Suction::SolveWith(const std::vector<bool>& wet, double pressure, ContactSt
   }
   if (!stage->Solve(solution->load, &solution->contact, timings)) return false;
   const Stopwatch stopwatch(&timings->classification);
-  solution->classification =
-      ClassifyEnd(*stage, solution->contact, pressure != 0.0 ? wet : std::vector<bool>());
+  const std::vector<bool> never;
+  ClassifyEnd(*stage, solution->contact, pressure != 0.0 ? wet : never, &solution->classification);
   return true;
 }
 
 bool Suction::HoldSeal(double pressure, ContactStage* stage, GripState* state,
-                       SuctionSolution* solution, StepTimings* timings) const {
+                       SuctionSolution* solution, StepTimings* timings) {
   std::vector<std::vector<bool>> seen;
-  std::vector<bool> wet = state->classification.wet;
-  for (int round = 0; round < seal_.max_rounds; ++round) {
-    if (!SolveWith(wet, pressure, stage, solution, timings)) return false;
-    seen.push_back(wet);
-    wet = solution->classification.wet;
-    if (std::find(seen.begin(), seen.end(), wet) != seen.end()) break;  // fixed point or cycle
+  wet_ = state->classification.wet;
+  for (int round = 1;; ++round) {
+    if (!SolveWith(wet_, pressure, stage, solution, timings)) return false;
+    if (round == seal_.max_rounds) break;
+    seen.push_back(wet_);
+    wet_ = solution->classification.wet;
+    if (std::find(seen.begin(), seen.end(), wet_) != seen.end()) break;  // fixed point or cycle
   }
   if (solution->classification.bottleneck_gap <= *seal_.open_gap) {
     state->pressure = pressure;
@@ -74,21 +77,21 @@ bool Suction::HoldSeal(double pressure, ContactStage* stage, GripState* state,
 }
 
 bool Suction::TryToSeal(double pressure, ContactStage* stage, GripState* state,
-                        SuctionSolution* solution, StepTimings* timings) const {
+                        SuctionSolution* solution, StepTimings* timings) {
   if (!SolveWith({}, 0.0, stage, solution, timings)) return false;  // (1)
   if (solution->classification.bottleneck_gap >= *seal_.close_gap) return true;
 
-  std::vector<bool> wet = solution->classification.wet;
+  wet_ = solution->classification.wet;
   for (int i = 1; i <= seal_.ramp_increments; ++i) {  // (2)
-    if (!SolveWith(wet, pressure * i / seal_.ramp_increments, stage, solution, timings)) {
+    if (!SolveWith(wet_, pressure * i / seal_.ramp_increments, stage, solution, timings)) {
       return false;
     }
-    wet = solution->classification.wet;
+    wet_ = solution->classification.wet;
     if (solution->classification.bottleneck_gap > *seal_.open_gap) {
       return SolveWith({}, 0.0, stage, solution, timings);  // suction opens it: no seal yet
     }
   }
-  if (!SolveWith(wet, pressure, stage, solution, timings)) return false;  // (3)
+  if (!SolveWith(wet_, pressure, stage, solution, timings)) return false;  // (3)
   if (solution->classification.bottleneck_gap > *seal_.open_gap) {
     return SolveWith({}, 0.0, stage, solution, timings);
   }
@@ -101,7 +104,7 @@ bool Suction::TryToSeal(double pressure, ContactStage* stage, GripState* state,
 bool Suction::Solve(const Eigen::Matrix3Xd& x_W, double setpoint, double h, ContactStage* stage,
                     GripState* state, SuctionSolution* solution, StepTimings* timings) {
   num_nodes_ = x_W.cols();
-  area_vectors_ = PointAreaVectors(*cavity_, x_W);
+  PointAreaVectors(*cavity_, x_W, &area_vectors_);
 
   const double largest_change = regulator_.ramp_rate * h;
   const double change = std::clamp(setpoint - state->pressure, -largest_change, largest_change);

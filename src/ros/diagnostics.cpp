@@ -20,9 +20,9 @@ Diagnostics::Diagnostics(const std::string& hardware_id, double period, double t
   updater_.add("simulation", this, &Diagnostics::Report);
 }
 
-void Diagnostics::OnStep(const StepResult& result, double wall_time, bool met_deadline) {
+void Diagnostics::OnStep(const StepResult& result, double wall_time, double publishing,
+                         bool met_deadline) {
   ++total_steps_;
-  ++window_.steps;
   const bool late = !met_deadline && static_cast<double>(total_steps_) * time_step_ > kStartUp;
   if (late) {
     ++missed_deadlines_;
@@ -38,8 +38,7 @@ void Diagnostics::OnStep(const StepResult& result, double wall_time, bool met_de
   contacts_ = result.num_contacts;
   window_.max_iterations = std::max(window_.max_iterations, result.solver_iterations);
   window_.max_residual = std::max(window_.max_residual, result.solver_residual);
-  window_.sum_step_time += wall_time;
-  window_.max_step_time = std::max(window_.max_step_time, wall_time);
+  times_.Add(wall_time, publishing);
 }
 
 void Diagnostics::OnFailure(const std::string& message) {
@@ -59,13 +58,14 @@ void Diagnostics::Report(diagnostic_updater::DiagnosticStatusWrapper& status) {
   Summarize(&status);
   const ros::WallTime now = ros::WallTime::now();
   const double elapsed = std::max(1e-9, (now - window_.begin).toSec());
-  const double mean = window_.steps > 0 ? window_.sum_step_time / window_.steps : 0.0;
-  status.add("step time mean [ms]", 1e3 * mean);
-  status.add("step time max [ms]", 1e3 * window_.max_step_time);
+  status.add("step time mean [ms]", 1e3 * times_.Mean());
+  status.add("step time 99th percentile [ms]", 1e3 * times_.Percentile(0.99));
+  status.add("step time max [ms]", 1e3 * times_.Max());
+  status.add("publishing share [%]", 1e2 * times_.PublishingShare());
   status.add("step budget [ms]", 1e3 * time_step_);
   status.add("missed deadlines", missed_deadlines_);
   status.add("skipped steps", skipped_);
-  status.add("real-time factor", window_.steps * time_step_ / elapsed);
+  status.add("real-time factor", times_.count() * time_step_ / elapsed);
   status.add("contacts", contacts_);
   status.add("solver iterations max", window_.max_iterations);
   status.add("solver residual max [m]", window_.max_residual);
@@ -77,6 +77,7 @@ void Diagnostics::Report(diagnostic_updater::DiagnosticStatusWrapper& status) {
     status.add("set-point age [s]", (now - setpoint_time_).toSec());
   }
   window_ = Window();
+  times_.Clear();
   window_.skipped = skipped_;
 }
 
@@ -92,7 +93,7 @@ void Diagnostics::Summarize(diagnostic_updater::DiagnosticStatusWrapper* status)
   } else if (window_.late > 0 || skipped > 0) {
     status->summaryf(DiagnosticStatus::WARN, "late: %d deadlines missed, %ld steps skipped",
                      window_.late, skipped);
-  } else if (window_.steps == 0) {
+  } else if (times_.count() == 0) {
     status->summary(DiagnosticStatus::OK, "no step: the clock stands still");
   } else {
     status->summary(DiagnosticStatus::OK, "in time");

@@ -5,6 +5,7 @@
 
 #include <string>
 
+#include "step_times.h"
 #include "vacuum_gripper_sim/core/step_result.h"
 
 namespace vacuum_gripper_sim {
@@ -22,8 +23,9 @@ class Diagnostics {
               double solver_tolerance);
 
   /** @param wall_time   What the step took, publishing included. [s]
+      @param publishing  What publishing took of it. [s]
       @param met_deadline False if it ended after its period. */
-  void OnStep(const StepResult& result, double wall_time, bool met_deadline);
+  void OnStep(const StepResult& result, double wall_time, double publishing, bool met_deadline);
   /// The simulation could not be continued and began anew.
   void OnFailure(const std::string& message);
   /// A set-point was accepted, as a message or by a service.
@@ -37,16 +39,13 @@ class Diagnostics {
  private:
   struct Window {
     ros::WallTime begin{ros::WallTime::now()};
-    int steps{0};
     int undone{0};
     int unconverged{0};
     int late{0};
     int max_iterations{0};
-    double max_residual{0.0};   // [m]
-    double sum_step_time{0.0};  // [s]
-    double max_step_time{0.0};  // [s]
-    long skipped{0};            // Counter at the window's begin.
-    std::string message;        // Of the last step that was undone.
+    double max_residual{0.0};  // [m]
+    long skipped{0};           // Counter at the window's begin.
+    std::string message;       // Of the last step that was undone.
   };
 
   void Report(diagnostic_updater::DiagnosticStatusWrapper& status);
@@ -63,6 +62,7 @@ class Diagnostics {
   ros::WallTime setpoint_time_;
   ros::WallTime next_report_;
   Window window_;
+  StepTimes times_;  // In the window.
   diagnostic_updater::Updater updater_;
 };
 

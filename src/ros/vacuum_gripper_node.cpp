@@ -97,11 +97,13 @@ void VacuumGripperNode::Step(const ros::Time& stamp) {
   if (undone && throttle_.Pass("undone")) {
     ROS_ERROR("step undone, last good state restored: %s", result.message.c_str());
   }
+  const ros::WallTime stepped = ros::WallTime::now();
   Publish(stamp, result);
 
   const bool met_deadline = schedule_.OnStepFinished(ros::Time::now());
+  const ros::WallTime end = ros::WallTime::now();
   diagnostics_.SetSkippedSteps(schedule_.skipped_steps());
-  diagnostics_.OnStep(result, (ros::WallTime::now() - begin).toSec(), met_deadline);
+  diagnostics_.OnStep(result, (end - begin).toSec(), (end - stepped).toSec(), met_deadline);
 }
 
 const StepResult& VacuumGripperNode::AdvanceSimulator(const Command& command) {
@@ -227,10 +229,7 @@ void VacuumGripperNode::Publish(const ros::Time& stamp, const StepResult& result
   wrench_publisher_.publish(ToWrench(result, cup_header));
   pressure_publisher_.publish(ToFluidPressure(result, parameters_.ambient_pressure, cup_header));
   PublishState(stamp, result);
-  if (points_publisher_.getNumSubscribers() > 0) {
-    points_publisher_.publish(ToPointCloud(result, simulator_.cavity(), world_header));
-  }
-  PublishMarkers(world_header, result);
+  PublishDisplay(world_header, result);
 }
 
 void VacuumGripperNode::PublishState(const ros::Time& stamp, const StepResult& result) {
@@ -249,13 +248,19 @@ void VacuumGripperNode::PublishState(const ros::Time& stamp, const StepResult& r
   }
 }
 
-void VacuumGripperNode::PublishMarkers(const std_msgs::Header& world_header,
+/// What is large: at the display's rate and only to those who listen.
+void VacuumGripperNode::PublishDisplay(const std_msgs::Header& world_header,
                                        const StepResult& result) {
   // Paced by wall time: it is people who look.
   const ros::WallTime now = ros::WallTime::now();
-  if (markers_publisher_.getNumSubscribers() == 0 || now < next_display_) return;
+  const bool wants_points = points_publisher_.getNumSubscribers() > 0;
+  const bool wants_markers = markers_publisher_.getNumSubscribers() > 0;
+  if ((!wants_points && !wants_markers) || now < next_display_) return;
   next_display_ = now + ros::WallDuration(1.0 / parameters_.display_rate);
-  markers_publisher_.publish(painter_.Paint(result, world_header));
+  if (wants_points) {
+    points_publisher_.publish(ToPointCloud(result, simulator_.cavity(), world_header));
+  }
+  if (wants_markers) markers_publisher_.publish(painter_.Paint(result, world_header));
 }
 
 std_msgs::Header VacuumGripperNode::MakeHeader(const ros::Time& stamp,

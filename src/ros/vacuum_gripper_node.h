@@ -50,7 +50,7 @@ class VacuumGripperNode {
 
   void Publish(const ros::Time& stamp, const StepResult& result);
   void PublishState(const ros::Time& stamp, const StepResult& result);  // What is latched.
-  void PublishMarkers(const std_msgs::Header& world_header, const StepResult& result);
+  void PublishDisplay(const std_msgs::Header& world_header, const StepResult& result);
   std_msgs::Header MakeHeader(const ros::Time& stamp, const std::string& frame) const;
 
   ros::NodeHandle nh_;

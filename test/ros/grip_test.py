@@ -289,7 +289,8 @@ class DisplayTest(GripTestCase):
         wait_until(lambda: len(statuses) >= 2, 'diagnostics')
         subscriber.unregister()
         values = {value.key: value.value for value in statuses[-1].values}
-        for key in ('step time mean [ms]', 'step budget [ms]', 'missed deadlines',
+        for key in ('step time mean [ms]', 'step time 99th percentile [ms]',
+                    'publishing share [%]', 'step budget [ms]', 'missed deadlines',
                     'real-time factor', 'contacts', 'solver iterations max',
                     'solver residual max [m]', 'set-point age [s]'):
             self.assertIn(key, values)

@@ -40,7 +40,9 @@ CavitySurface MakeCavitySurface(const TetMesh& mesh);
  (area vector) / 3, pointing out of the cavity into the material. [Bernardin, Sec. III-C]
 
  @param x_W Positions of all mesh nodes, 3 by #nodes. [m]
- @returns 3 by num_points(). [m^2] */
+ @param[out] areas 3 by num_points(). [m^2] */
+void PointAreaVectors(const CavitySurface& surface, const Eigen::Matrix3Xd& x_W,
+                      Eigen::Matrix3Xd* areas);
 Eigen::Matrix3Xd PointAreaVectors(const CavitySurface& surface, const Eigen::Matrix3Xd& x_W);
 
 }  // namespace vacuum_gripper_sim

@@ -50,14 +50,53 @@ struct Classification {
  Zones are those of the paper, with "in contact" meaning phi <= open_gap. When port and border are
  joined by open points, no point is inside (Algorithm 1, line 28).
 
- A flood also takes the ways across edges that are open between closed ends, as wide as they are.
+ A flood also takes the ways across edges that are open between closed ends, as wide as they are. */
+class Classifier {
+ public:
+  /// @param surface The cavity surface, n points; must outlive this.
+  explicit Classifier(const CavitySurface& surface) : surface_(&surface) {}
 
- @param surface   The cavity surface, n points.
- @param phi       Opening of each point, n. [m]
- @param open_gap  Points with phi above this count as open. [m]
- @param was_wet   The points that saw suction before this step, n; empty: none.
- @param edge_ways Ways across edges, wider than open_gap.
- @throws std::invalid_argument if the sizes disagree. */
+  /** @param phi      Opening of each point, n. [m]
+      @param open_gap Points with phi above this count as open. [m]
+      @param was_wet  The points that saw suction before this step, n; empty: none.
+      @param[in,out] classification On entry its edge_ways are the ways across edges, wider than
+        open_gap.
+      @throws std::invalid_argument if the sizes disagree. */
+  void Classify(const std::vector<double>& phi, double open_gap, const std::vector<bool>& was_wet,
+                Classification* classification);
+
+ private:
+  enum class Basin : std::uint8_t { kNone, kPort, kBorder };
+  /// A point that a flood may take next.
+  struct Shore {
+    double phi;  // of the point, or of a narrower way to it
+    int order;   // first come, first served among equals: the outcome depends on the input alone
+    int point;
+    int parent;
+    Basin basin;
+    bool operator<(const Shore& other) const {
+      return phi != other.phi ? phi < other.phi : order > other.order;
+    }
+  };
+
+  void Flood(const std::vector<double>& phi, const std::vector<EdgeWay>& ways);
+  void PushShore(const Shore& shore);
+  double BottleneckGap(const std::vector<EdgeWay>& ways) const;
+  void ReachThroughOpen(const std::vector<int>& seeds, const std::vector<EdgeWay>& ways,
+                        std::vector<bool>* reached);
+
+  const CavitySurface* surface_;
+  // The two floods: which basin owns each point, the lowest phi on the way there from its seed, and
+  // the points to take, a heap.
+  std::vector<Basin> basin_;
+  std::vector<double> bottleneck_;
+  std::vector<Shore> shores_;
+
+  std::vector<bool> open_, outside_, inside_;  // by point
+  std::vector<int> stack_;
+};
+
+/// Classifies once, see Classifier.
 Classification Classify(const CavitySurface& surface, const std::vector<double>& phi,
                         double open_gap, const std::vector<bool>& was_wet = {},
                         std::vector<EdgeWay> edge_ways = {});

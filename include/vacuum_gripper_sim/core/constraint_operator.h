@@ -80,6 +80,7 @@ class ConstraintOperator {
   DelassusOperator cup_;           // of the columns
   std::vector<int> plain_column_;  // by contact; -1: takes those of its nodes
   std::map<int, int> columns_of_;  // a node's first of three columns
+  std::vector<NodeColumn> new_columns_;
   int num_columns_{0};
 
   bool plain_{true};

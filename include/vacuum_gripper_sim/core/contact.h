@@ -63,8 +63,8 @@ class NarrowPhase {
   /// The pair measured at x1. @param surfaces Where they are then.
   NodeContact At(int pair, const std::vector<RigidSurface>& surfaces, const Eigen::Matrix3Xd& x1_W);
   /// Of each watched node at x1 to the surface nearest to it; +inf without surfaces. [m]
-  std::vector<double> Nearest(const std::vector<RigidSurface>& surfaces,
-                              const Eigen::Matrix3Xd& x1_W);
+  void Nearest(const std::vector<RigidSurface>& surfaces, const Eigen::Matrix3Xd& x1_W,
+               std::vector<double>* nearest);
 
  private:
   SurfaceDistance Look(std::size_t pair, const RigidSurface& surface, const Eigen::Vector3d& p_W);

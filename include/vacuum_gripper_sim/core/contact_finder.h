@@ -68,24 +68,23 @@ class ContactFinder {
   void Begin(const RigidWorld& world, const Eigen::Matrix3Xd& x0_W, double h);
 
   /// The contacts, as seen ahead, of which `wanted(key, gap)` is true; in an order that depends on
-  /// nothing else.
+  /// nothing else. @param[out] contacts
   template <typename Predicate>
-  std::vector<Contact> Select(const TrialEnd& end, const Predicate& wanted) const {
-    std::vector<Contact> contacts;
+  void Select(const TrialEnd& end, const Predicate& wanted, std::vector<Contact>* contacts) const {
+    contacts->clear();
     for (int i = 0; i < narrow_phase_.num_pairs(); ++i) {
       if (!may_touch_[PlaceOf(i)]) continue;
-      if (wanted(NodeKey(i), NodeGap(i, end))) contacts.push_back(Ahead(NodeKey(i), end));
+      if (wanted(NodeKey(i), NodeGap(i, end))) contacts->push_back(Ahead(NodeKey(i), end));
     }
     for (const FaceContacts::Pair& pair : face_contacts_.pairs()) {
-      if (wanted(FaceKey(pair), FaceGap(pair, end))) contacts.push_back(Ahead(FaceKey(pair), end));
+      if (wanted(FaceKey(pair), FaceGap(pair, end))) contacts->push_back(Ahead(FaceKey(pair), end));
     }
     for (const FoldContact& fold : face_contacts_.folds()) {
-      if (wanted(FoldKey(fold), FoldGap(fold, end))) contacts.push_back(Ahead(FoldKey(fold), end));
+      if (wanted(FoldKey(fold), FoldGap(fold, end))) contacts->push_back(Ahead(FoldKey(fold), end));
     }
     for (const BodyContacts::Pair& pair : body_contacts_.pairs()) {
-      if (wanted(BodyKey(pair), BodyGap(pair, end))) contacts.push_back(Ahead(BodyKey(pair), end));
+      if (wanted(BodyKey(pair), BodyGap(pair, end))) contacts->push_back(Ahead(BodyKey(pair), end));
     }
-    return contacts;
   }
 
   Contact Ahead(std::uint64_t key, const TrialEnd& end) const;
@@ -98,8 +97,8 @@ class ContactFinder {
     }
   }
   /// Of each node to the surface nearest to it at a trial's end; +inf without surfaces. [m]
-  std::vector<double> Nearest(const TrialEnd& end) {
-    return narrow_phase_.Nearest(*end.surfaces, end.x_W);
+  void Nearest(const TrialEnd& end, std::vector<double>* nearest) {
+    narrow_phase_.Nearest(*end.surfaces, end.x_W, nearest);
   }
   /// The surface that is nearest to a node when the step begins.
   int NearestSurface(int node) const;

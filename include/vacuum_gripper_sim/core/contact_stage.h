@@ -3,7 +3,6 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <unordered_map>
-#include <unordered_set>
 #include <vector>
 
 #include "vacuum_gripper_sim/core/constraint_operator.h"
@@ -98,16 +97,16 @@ class ContactStage {
   };
   void FindCandidates();
   void StartAfresh();
-  TrialEnd EndOf(const SystemVector& dv);
+  void FindEnd(const SystemVector& dv, TrialEnd* end);
   void AddCandidates(const std::vector<Contact>& contacts);
+  bool IsCandidate(std::uint64_t key) const;
   template <typename Measure>
   void MeasureCandidates(const Measure& measure);
   void UpdateOperator(StepTimings* timings);
-  void SolveCandidates(SystemVector* y, ContactSolution* solution, StepTimings* timings);
-  bool SolveWithFactorization(const SystemVector& impulse, ContactSolution* solution,
-                              StepTimings* timings);
-  bool Refine(const SystemVector& impulse, ContactSolution* solution);
-  Eigen::VectorXd Stacked(Eigen::Vector3d Candidate::*values) const;
+  void SolveCandidates(ContactSolution* solution, StepTimings* timings);
+  bool SolveWithFactorization(ContactSolution* solution, StepTimings* timings);
+  bool Refine(ContactSolution* solution);
+  const Eigen::VectorXd& Stack(Eigen::Vector3d Candidate::*values, Eigen::VectorXd* stacked) const;
   void SetForces(const Eigen::VectorXd& lambda);
   void MeasureEnd(const TrialEnd& end, ContactSolution* solution);
   void Report(ContactSolution* solution) const;
@@ -125,13 +124,22 @@ class ContactStage {
   ContactFinder finder_;
   std::vector<ObjectLoad> pressure_on_;     // of the current load, by object
   std::vector<RigidSurface> surfaces_end_;  // of the current trial, if bodies move
+  SystemVector impulse_;                    // of free motion and load
+  SystemVector y_;                          // what a pass adds to the motion, half solved for
+  TrialEnd coasting_, end_;                 // without a change of velocity, and of the trial
+  // Kept for their memory.
+  SystemVector none_, with_forces_;
+  Eigen::VectorXd lambda_, applied_;  // [N]
+  std::vector<Contact> selected_, contacts_;
+  std::vector<Eigen::Index> held_;
+  std::vector<double> nearest_;  // [m]
 
   // Of the current factorisation.
   static constexpr int kNoFactorization = -1;
   int candidates_of_{kNoFactorization};  // its generation
   std::vector<Candidate> candidates_;
-  std::unordered_set<std::uint64_t> is_candidate_;  // by key
-  ConstraintOperator operator_;                     // of the first candidates or of all
+  std::vector<std::uint64_t> candidate_keys_;  // ascending
+  ConstraintOperator operator_;                // of the first candidates or of all
 
   /// Forces of the last step, by key: the normal one and the others in world axes, as what is
   /// across a normal may change from step to step. [N]

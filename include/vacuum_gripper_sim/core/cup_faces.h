@@ -77,6 +77,7 @@ class CupFaces {
     TrianglePoint at;
   };
 
+  void FitBoxes();
   void Consider(int face, const Eigen::Vector3d& p_W, Candidate* best) const;
   CupFacePoint Describe(const Candidate& nearest, const Eigen::Vector3d& p_W) const;
 

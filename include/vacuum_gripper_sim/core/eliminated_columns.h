@@ -52,6 +52,7 @@ class EliminatedColumns {
   static Eigen::Map<Matrix<Scalar>> Values(std::vector<Scalar>* values, const Block& block) {
     return {values->data() + block.offset, block.num_columns, block.num_rows};
   }
+  std::size_t LargestBlock() const;  // entries
   Eigen::MatrixXd InGivenOrder(const Eigen::MatrixXd& sorted, const EliminatedColumns& other) const;
 
   std::vector<int> order_;     // the sorted columns' numbers in B

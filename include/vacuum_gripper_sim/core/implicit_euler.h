@@ -51,17 +51,22 @@ class ImplicitEuler {
   /// Of the step's impulses, however little the body moves: norm of the free nodes' masses times h
   /// and standard gravity. [kg m/s]
   double ImpulseScale() const;
+  // What these return is valid until the next call of any of them.
   /// A_ff dv_f. @param dv_f 3 #free. [m/s] @returns 3 #free. [kg m/s]
-  Eigen::VectorXd Multiply(const Eigen::VectorXd& dv_f) const;
+  const Eigen::VectorXd& Multiply(const Eigen::VectorXd& dv_f);
   /// b_f - A_fc dv_c. @param dv_c 3 by #clamped. [m/s] @returns 3 #free. [kg m/s]
-  Eigen::VectorXd FreeRightHandSide(const Eigen::Matrix3Xd& dv_c) const;
+  const Eigen::VectorXd& FreeRightHandSide(const Eigen::Matrix3Xd& dv_c);
   /// r_c. @param dv_f 3 #free, @param dv_c 3 by #clamped. [m/s] @returns 3 by #clamped. [N]
-  Eigen::Matrix3Xd ClampedReaction(const Eigen::VectorXd& dv_f, const Eigen::Matrix3Xd& dv_c) const;
+  const Eigen::Matrix3Xd& ClampedReaction(const Eigen::VectorXd& dv_f,
+                                          const Eigen::Matrix3Xd& dv_c);
 
   /// Values of a 3 by #nodes array at the free nodes, stacked.
+  void GatherFree(const Eigen::Matrix3Xd& values, Eigen::VectorXd* gathered) const;
   Eigen::VectorXd GatherFree(const Eigen::Matrix3Xd& values) const;
   /// 3 by #nodes array with the stacked values at the free nodes and `values_c` at the clamped
   /// ones.
+  void Scatter(const Eigen::VectorXd& values_f, const Eigen::Matrix3Xd& values_c,
+               Eigen::Matrix3Xd* scattered) const;
   Eigen::Matrix3Xd Scatter(const Eigen::VectorXd& values_f, const Eigen::Matrix3Xd& values_c) const;
 
  private:
@@ -87,6 +92,13 @@ class ImplicitEuler {
   Eigen::Matrix3Xd b_;  // all nodes
   bool assembled_{false};
   Eigen::SparseMatrix<double> A_ff_;
+
+  // Of a product with A, and its result.
+  Eigen::Matrix3Xd dv_, product_;
+  Eigen::VectorXd free_result_;
+  Eigen::Matrix3Xd reaction_;
+  Eigen::VectorXd no_dv_f_;
+  Eigen::Matrix3Xd no_dv_c_;
 };
 
 }  // namespace vacuum_gripper_sim

@@ -45,7 +45,9 @@ class LinearSolver {
   }
 
   /// b - A dv. @param b [N s] @param dv [m/s]
-  Eigen::VectorXd Residual(const Eigen::VectorXd& b, const Eigen::VectorXd& dv) const;
+  Eigen::VectorXd Residual(const Eigen::VectorXd& b, const Eigen::VectorXd& dv) const {
+    return b - system_->Multiply(dv);
+  }
 
   /** Solves A dv = b + h H^T lambda where `held` rows keep their gaps and slips and only they
    change their forces: conjugate gradients among the motions that move no held row, preconditioned
@@ -87,6 +89,7 @@ class LinearSolver {
   int iterations_{0};
   int iterations_before_{0};  // of the step, with factorisations given up since
   int factorizations_{0};
+  SystemVector r_, p_, Ap_;  // residual, direction and its product with A, in Refine()
   std::unique_ptr<BackgroundFactorization> background_;  // kAsynchronous only
 };
 

@@ -62,22 +62,25 @@ class Suction {
 
  private:
   /// Classifies the cavity at the end of a contact solution.
-  Classification ClassifyEnd(const ContactStage& stage, const ContactSolution& contact,
-                             const std::vector<bool>& was_wet) const;
+  void ClassifyEnd(const ContactStage& stage, const ContactSolution& contact,
+                   const std::vector<bool>& was_wet, Classification* classification);
   bool SolveWith(const std::vector<bool>& wet, double pressure, ContactStage* stage,
-                 SuctionSolution* solution, StepTimings* timings) const;
+                 SuctionSolution* solution, StepTimings* timings);
   bool HoldSeal(double pressure, ContactStage* stage, GripState* state, SuctionSolution* solution,
-                StepTimings* timings) const;
+                StepTimings* timings);
   bool TryToSeal(double pressure, ContactStage* stage, GripState* state, SuctionSolution* solution,
-                 StepTimings* timings) const;
+                 StepTimings* timings);
 
   const CavitySurface* cavity_;
   EdgeWays edge_ways_;
+  Classifier classifier_;
   SealParameters seal_;
   RegulatorParameters regulator_;
   double young_modulus_;
   Eigen::Matrix3Xd area_vectors_;  // of the step's start [m^2]
   Eigen::Index num_nodes_{0};
+  std::vector<bool> wet_;    // that the next solve loads
+  std::vector<double> phi_;  // of the points, see Classifier [m]
 };
 
 }  // namespace vacuum_gripper_sim

@@ -10,6 +10,10 @@ struct SystemVector {
   Eigen::VectorXd cup;     ///< 3 #free.
   Eigen::VectorXd bodies;  ///< 6 #bodies, see RigidWorld.
 
+  void SetZero(Eigen::Index cup_size, Eigen::Index bodies_size) {
+    cup.setZero(cup_size);
+    bodies.setZero(bodies_size);
+  }
   double dot(const SystemVector& other) const {
     return cup.dot(other.cup) + bodies.dot(other.bodies);
   }
