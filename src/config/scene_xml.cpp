@@ -37,6 +37,7 @@ std::map<std::string, ParentJoint> ReadParents(const XMLElement* robot) {
   for (const XMLElement* joint = robot->FirstChildElement("joint"); joint != nullptr;
        joint = joint->NextSiblingElement("joint")) {
     const std::string child = Attribute(joint->FirstChildElement("child"), "link");
+    if (child.empty()) continue;  // urdfdom says so
     const ParentJoint found{Attribute(joint, "name"),
                             Attribute(joint->FirstChildElement("parent"), "link")};
     const auto [entry, is_first] = parents.emplace(child, found);

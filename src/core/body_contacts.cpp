@@ -85,6 +85,12 @@ std::vector<Feeler> Feelers(const Mesh& mesh, const Vector3d& /*into*/) {
   return feelers;
 }
 
+auto FindPlace(const std::vector<BodyContacts::Pair>& pairs, std::uint32_t id) {
+  return std::lower_bound(
+      pairs.begin(), pairs.end(), id,
+      [](const BodyContacts::Pair& pair, std::uint32_t value) { return pair.id < value; });
+}
+
 }  // namespace
 
 void BodyContacts::Begin(const RigidWorld& world, double reach) {
@@ -115,7 +121,10 @@ void BodyContacts::Begin(const RigidWorld& world, double reach) {
         pair.surface = surface;
         pair.p_W = felt_out.X_FS * feeler.p_S;
         pair.radius = feeler.radius;
-        pair.seen = Distance(against, pair.p_W);
+        // A sphere sees as far as its middle is from what it touches.
+        pair.seen = std::holds_alternative<Mesh>(against.shape)
+                        ? sightings_[pair.id].BeginStep(against, pair.p_W, reach + pair.radius)
+                        : Distance(against, pair.p_W);
         pair.seen.distance -= feeler.radius;
         if (pair.seen.distance >= reach) continue;
         const Vector3d edge_W = felt_out.X_FS.linear() * feeler.edge_S;
@@ -127,9 +136,19 @@ void BodyContacts::Begin(const RigidWorld& world, double reach) {
   }
 }
 
+SurfaceDistance BodyContacts::Look(const Pair& pair, const RigidSurface& surface,
+                                   const Eigen::Vector3d& p_W) {
+  return std::holds_alternative<Mesh>(surface.shape) ? sightings_[pair.id].Look(surface, p_W)
+                                                     : Distance(surface, p_W);
+}
+
+bool BodyContacts::Sees(std::uint32_t id) const {
+  const auto place = FindPlace(pairs_, id);
+  return place != pairs_.end() && place->id == id;
+}
+
 const BodyContacts::Pair& BodyContacts::Find(std::uint32_t id) const {
-  return *std::lower_bound(pairs_.begin(), pairs_.end(), id,
-                           [](const Pair& pair, std::uint32_t value) { return pair.id < value; });
+  return *FindPlace(pairs_, id);
 }
 
 }  // namespace vacuum_gripper_sim

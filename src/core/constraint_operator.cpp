@@ -12,6 +12,8 @@ namespace {
 /// way by this share of what the body does share its load; under its weight it sinks by h^2 g times
 /// that.
 constexpr double kBodyCompliance = 1e-7;
+/// Sine of the angle below which a direction is not across a normal.
+constexpr double kAcross = 0.1;
 
 }  // namespace
 
@@ -43,7 +45,9 @@ bool ConstraintOperator::MayBePlain(const Contact& contact) const {
 Eigen::Matrix3d ConstraintOperator::Axes(const Contact& contact) {
   Eigen::Matrix3d axes;
   axes.col(0) = contact.normal;
-  axes.col(2) = contact.normal.cross(contact.across).normalized();
+  const Eigen::Vector3d t = contact.normal.cross(contact.across);
+  // Past an edge the normal may have turned towards what was across it.
+  axes.col(2) = t.norm() > kAcross ? t.normalized() : contact.normal.unitOrthogonal();
   axes.col(1) = axes.col(2).cross(contact.normal);
   return axes;
 }

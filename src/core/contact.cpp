@@ -1,6 +1,7 @@
 #include "vacuum_gripper_sim/core/contact.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <limits>
 #include <variant>
@@ -12,15 +13,6 @@ namespace {
 constexpr double kReach = 0.01;
 
 bool IsMesh(const RigidSurface& surface) { return std::holds_alternative<Mesh>(surface.shape); }
-
-Eigen::Vector3d InShape(const RigidSurface& surface, const Eigen::Vector3d& p_F) {
-  return surface.X_FS.linear().transpose() * (p_F - surface.X_FS.translation());
-}
-
-SurfaceDistance InFrame(const RigidSurface& surface, SurfaceDistance seen) {
-  seen.normal = surface.X_FS.linear() * seen.normal;
-  return seen;
-}
 
 }  // namespace
 
@@ -47,9 +39,8 @@ void NarrowPhase::Begin(const std::vector<RigidSurface>& surfaces, const std::ve
     for (const RigidSurface& surface : surfaces) {
       const Eigen::Vector3d p_W = x0_W.col(node);
       if (IsMesh(surface)) {
-        const SurfaceDistance seen =
-            sightings_[seen_.size()].BeginStep(surface.shape, InShape(surface, p_W), kReach);
-        seen_.push_back(InFrame(surface, seen));
+        const SurfaceDistance seen = sightings_[seen_.size()].BeginStep(surface, p_W, kReach);
+        seen_.push_back(seen);
       } else {
         seen_.push_back(Distance(surface, p_W));
       }
@@ -60,7 +51,7 @@ void NarrowPhase::Begin(const std::vector<RigidSurface>& surfaces, const std::ve
 SurfaceDistance NarrowPhase::Look(std::size_t pair, const RigidSurface& surface,
                                   const Eigen::Vector3d& p_W) {
   if (!IsMesh(surface)) return Distance(surface, p_W);
-  return InFrame(surface, sightings_[pair].Look(surface.shape, InShape(surface, p_W)));
+  return sightings_[pair].Look(surface, p_W);
 }
 
 NodeContact NarrowPhase::At(int pair, const std::vector<RigidSurface>& surfaces,
@@ -81,6 +72,29 @@ void NarrowPhase::Nearest(const std::vector<RigidSurface>& surfaces, const Eigen
       distance = std::min(distance, Look(pair++, surface, x1_W.col(nodes_[i])).distance);
     }
   }
+}
+
+int NarrowPhase::NearestSurface(int node) const {
+  const auto place = std::lower_bound(nodes_.begin(), nodes_.end(), node) - nodes_.begin();
+  const auto num_surfaces = static_cast<int>(surfaces_->size());
+  const int first = static_cast<int>(place) * num_surfaces;
+  const auto distance_to = [&](int surface) {
+    const double seen_distance = seen(first + surface).distance;
+    const RigidSurface& candidate = (*surfaces_)[static_cast<std::size_t>(surface)];
+    if (!IsMesh(candidate) || seen_distance < kReach) return seen_distance;
+    return std::abs(Distance(candidate, x0_W_.col(node)).distance);
+  };
+  int nearest = 0;
+  double nearest_distance = std::numeric_limits<double>::infinity();
+  for (int surface = 0; surface < num_surfaces && num_surfaces > 1; ++surface) {
+    // What was seen is at most how far it is.
+    if (seen(first + surface).distance >= nearest_distance) continue;
+    const double distance = distance_to(surface);
+    if (distance >= nearest_distance) continue;
+    nearest_distance = distance;
+    nearest = surface;
+  }
+  return nearest;
 }
 
 NodeContact NarrowPhase::Ahead(int pair, const Eigen::Matrix3Xd& x1_W) const {

@@ -11,6 +11,8 @@ namespace {
 constexpr double kBodyReach = 0.02;
 /// Edges farther from the cup than this do not meet it. [m]
 constexpr double kFaceReach = 3e-3;
+/// Share of a point of the cup's faces that has to be on nodes that are not clamped. [-]
+constexpr double kLeastFreeWeight = 1e-3;
 
 /// The axis that is most across a normal.
 Eigen::Vector3d Across(const Eigen::Vector3d& normal) {
@@ -28,6 +30,28 @@ void ContactFinder::Begin(const RigidWorld& world, const Eigen::Matrix3Xd& x0_W,
   narrow_phase_.Begin(world.surfaces(), nodes_, x0_W);
   face_contacts_.Begin(world, x0_W, kFaceReach);
   body_contacts_.Begin(world, kBodyReach);
+}
+
+bool ContactFinder::Sees(std::uint64_t key) const {
+  if (key < kFaceKeys) return true;
+  if (key < kFoldKeys) return face_contacts_.Sees(static_cast<std::uint32_t>(key - kFaceKeys));
+  if (key < kBodyKeys) return face_contacts_.SeesFoldOf(static_cast<int>(key - kFoldKeys));
+  return body_contacts_.Sees(static_cast<std::uint32_t>(key - kBodyKeys));
+}
+
+/// Is there a motion that answers the contact? A fixed edge before a clamped part of the cup has
+/// none.
+bool ContactFinder::GivesWay(const FaceContacts::Pair& pair, const CupFacePoint& seen) const {
+  if (world_->BodyOf(world_->ObjectOf(pair.surface)) != RigidWorld::kNone) return true;
+  double free_weight = 0.0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const auto place =
+        std::lower_bound(nodes_.begin(), nodes_.end(), seen.nodes[k]) - nodes_.begin();
+    if (may_touch_[static_cast<std::size_t>(place)]) {
+      free_weight += seen.weights(static_cast<Eigen::Index>(k));
+    }
+  }
+  return free_weight > kLeastFreeWeight;
 }
 
 double ContactFinder::NodeGap(int pair, const TrialEnd& end) const {
@@ -193,7 +217,7 @@ Contact ContactFinder::At(std::uint64_t key, const TrialEnd& end) {
       p_W += world_->Displacement(object, pair.p_W, end.dV, h_);
     }
     const std::optional<CupFacePoint> seen = face_contacts_.faces().Nearest(p_W, 2.0 * kFaceReach);
-    if (seen) return FaceAgainst(pair, *seen, seen->distance, end);
+    if (seen && GivesWay(pair, *seen)) return FaceAgainst(pair, *seen, seen->distance, end);
     return FaceAgainst(pair, pair.seen, kFaceReach, end);
   }
   if (key >= kBodyKeys) {
@@ -205,27 +229,12 @@ Contact ContactFinder::At(std::uint64_t key, const TrialEnd& end) {
       p_W += world_->Displacement(other, pair.p_W, end.dV, h_);
     }
     const SurfaceDistance seen =
-        Distance((*end.surfaces)[static_cast<std::size_t>(pair.surface)], p_W);
+        body_contacts_.Look(pair, (*end.surfaces)[static_cast<std::size_t>(pair.surface)], p_W);
     return BodyAgainst(pair, seen, seen.distance - pair.radius, end);
   }
   const auto pair = static_cast<int>(key);
   const NodeContact there = narrow_phase_.At(pair, *end.surfaces, end.x_W);
   return NodeAgainst(pair, {there.gap, there.normal}, there.gap, end);
-}
-
-int ContactFinder::NearestSurface(int node) const {
-  const auto place = std::lower_bound(nodes_.begin(), nodes_.end(), node) - nodes_.begin();
-  const auto num_surfaces = static_cast<int>(world_->surfaces().size());
-  int nearest = 0;
-  double nearest_distance = std::numeric_limits<double>::infinity();
-  for (int surface = 0; surface < num_surfaces; ++surface) {
-    const double distance =
-        narrow_phase_.seen(static_cast<int>(place) * num_surfaces + surface).distance;
-    if (distance >= nearest_distance) continue;
-    nearest_distance = distance;
-    nearest = surface;
-  }
-  return nearest;
 }
 
 }  // namespace vacuum_gripper_sim

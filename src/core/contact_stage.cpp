@@ -94,8 +94,13 @@ void ContactStage::Begin(const RigidWorld& world, const Eigen::Matrix3Xd& x,
 }
 
 void ContactStage::FindCandidates() {
+  const bool some_are_gone =
+      std::any_of(candidates_.begin(), candidates_.end(),
+                  [&](const Candidate& candidate) { return !finder_.Sees(candidate.contact.key); });
   // Bodies turn, and so do the rows of their contacts.
-  if (candidates_of_ != solver_->generation() || world_->num_bodies() > 0) StartAfresh();
+  if (candidates_of_ != solver_->generation() || world_->num_bodies() > 0 || some_are_gone) {
+    StartAfresh();
+  }
   FindEnd(none_, &coasting_);
   const auto wanted = [&](std::uint64_t key, double gap) {
     if (IsCandidate(key)) return false;
@@ -353,6 +358,7 @@ void ContactStage::Report(ContactSolution* solution) const {
   solution->num_contacts = 0;
   solution->num_candidates = static_cast<int>(candidates_.size());
   solution->lambda.setZero(x0_.cols());
+  solution->forces_W.setZero(3, x0_.cols());
   solution->objects = pressure_on_;
   Vector3d friction_W = Vector3d::Zero();
   for (const Candidate& candidate : candidates_) {
@@ -364,7 +370,6 @@ void ContactStage::Report(ContactSolution* solution) const {
       const auto place = static_cast<std::size_t>(k);
       solution->lambda(contact.nodes[place]) += std::abs(contact.weights[place]) * normal_force;
     }
-    if (contact.object == RigidWorld::kNone) continue;
     Vector3d on_cup_W = normal_force * contact.normal;
     if (contact.friction > 0.0) {
       const Vector3d tangential_W =
@@ -372,6 +377,11 @@ void ContactStage::Report(ContactSolution* solution) const {
       on_cup_W += tangential_W;
       friction_W += tangential_W;
     }
+    for (int k = 0; k < contact.num_nodes; ++k) {
+      const auto place = static_cast<std::size_t>(k);
+      solution->forces_W.col(contact.nodes[place]) += contact.weights[place] * on_cup_W;
+    }
+    if (contact.object == RigidWorld::kNone) continue;
     const auto object = static_cast<std::size_t>(contact.object);
     const Vector3d arm = contact.p_W - world_->objects()[object].X_WO.translation();
     solution->objects[object].force_W -= on_cup_W;

@@ -22,6 +22,18 @@ double RelativeMotion(const Eigen::Matrix3Xd& x, const Eigen::Matrix3Xd& x_befor
   return (way.rowwise().maxCoeff() - way.rowwise().minCoeff()).norm();
 }
 
+auto FindPlace(const std::vector<FaceContacts::Pair>& pairs, std::uint32_t id) {
+  return std::lower_bound(
+      pairs.begin(), pairs.end(), id,
+      [](const FaceContacts::Pair& pair, std::uint32_t value) { return pair.id < value; });
+}
+
+auto FindPlace(const std::vector<FoldContact>& folds, int node) {
+  return std::lower_bound(
+      folds.begin(), folds.end(), node,
+      [](const FoldContact& contact, int value) { return contact.node < value; });
+}
+
 }  // namespace
 
 void FaceContacts::Begin(const RigidWorld& world, const Eigen::Matrix3Xd& x_W, double reach) {
@@ -65,15 +77,20 @@ void FaceContacts::FindFolds(const Eigen::Matrix3Xd& x_W) {
   folds_ = self_contact_.Find(faces_, x_W, kFoldReach, near_folds_);
 }
 
-const FoldContact& FaceContacts::FoldOf(int node) const {
-  return *std::lower_bound(
-      folds_.begin(), folds_.end(), node,
-      [](const FoldContact& contact, int value) { return contact.node < value; });
+bool FaceContacts::SeesFoldOf(int node) const {
+  const auto place = FindPlace(folds_, node);
+  return place != folds_.end() && place->node == node;
+}
+
+const FoldContact& FaceContacts::FoldOf(int node) const { return *FindPlace(folds_, node); }
+
+bool FaceContacts::Sees(std::uint32_t id) const {
+  const auto place = FindPlace(pairs_, id);
+  return place != pairs_.end() && place->id == id;
 }
 
 const FaceContacts::Pair& FaceContacts::Find(std::uint32_t id) const {
-  return *std::lower_bound(pairs_.begin(), pairs_.end(), id,
-                           [](const Pair& pair, std::uint32_t value) { return pair.id < value; });
+  return *FindPlace(pairs_, id);
 }
 
 }  // namespace vacuum_gripper_sim

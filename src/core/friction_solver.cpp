@@ -4,6 +4,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 namespace vacuum_gripper_sim {
@@ -57,6 +58,8 @@ class FrictionProblem {
 };
 
 double FrictionProblem::Residual(const VectorXd& lambda, const VectorXd& end) const {
+  // A largest value would pass over what is no number.
+  if (!lambda.allFinite() || !end.allFinite()) return std::numeric_limits<double>::infinity();
   double residual = 0.0;
   for (const ContactRows& contact : *rows_) {
     const Index n = contact.normal;

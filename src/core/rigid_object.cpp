@@ -5,6 +5,7 @@
 #include <sstream>
 #include <stdexcept>
 #include <utility>
+#include <variant>
 
 namespace vacuum_gripper_sim {
 namespace {
@@ -63,7 +64,14 @@ void Validate(const RigidObject& object) {
            << ", must be finite [m/s], [rad/s]";
     Refuse(object.name, reason.str());
   }
-  if (object.inertia) ValidateInertia(object.name, *object.inertia);
+  if (!object.inertia) return;
+  ValidateInertia(object.name, *object.inertia);
+  for (const RigidSurface& surface : object.surfaces) {
+    if (!std::holds_alternative<Plane>(surface.shape)) continue;
+    Refuse(object.name, "surface '" + surface.name +
+                            "' of a free object is a plane, which has no end; must be a box, "
+                            "sphere, cylinder or mesh");
+  }
 }
 
 }  // namespace vacuum_gripper_sim

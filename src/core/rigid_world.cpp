@@ -132,17 +132,6 @@ Vector3d RigidWorld::Displacement(int object, const Vector3d& p_W, const Eigen::
   return p_W - X_WO_before * (X_WO.inverse() * p_W);
 }
 
-double RigidWorld::LongestJump(int* object) const {
-  double longest = 0.0;
-  for (std::size_t i = 0; i < objects_.size(); ++i) {
-    const double jump = (objects_[i].X_WO.translation() - X_WO_before_[i].translation()).norm();
-    if (jump <= longest) continue;
-    longest = jump;
-    *object = static_cast<int>(i);
-  }
-  return longest;
-}
-
 void RigidWorld::Advance(const Eigen::VectorXd& dV, double h) {
   for (int i = 0; i < num_bodies(); ++i) {
     Body& body = bodies_[static_cast<std::size_t>(i)];

@@ -11,6 +11,7 @@
 #include "vacuum_gripper_sim/core/elastic_body.h"
 #include "vacuum_gripper_sim/core/implicit_euler.h"
 #include "vacuum_gripper_sim/core/linear_solver.h"
+#include "vacuum_gripper_sim/core/misplacement.h"
 #include "vacuum_gripper_sim/core/rigid_world.h"
 #include "vacuum_gripper_sim/core/seal_tolerance.h"
 #include "vacuum_gripper_sim/core/stopwatch.h"
@@ -18,9 +19,6 @@
 
 namespace vacuum_gripper_sim {
 namespace {
-
-/// An object that was put farther into the cup than this in one step has jumped there. [m]
-constexpr double kJump = 5e-3;
 
 /// The nodes of the whole boundary, ascending.
 std::vector<int> SurfaceNodes(const TetMesh& mesh) {
@@ -98,6 +96,7 @@ class Simulator::Implementation {
   }
 
   void SetObjects(std::vector<RigidObject> objects);
+  void SetObjectPose(int index, const Eigen::Isometry3d& X_WO);
   void Reset(const Eigen::Isometry3d& X_WM);
   void Step(const Command& command);
 
@@ -115,7 +114,7 @@ class Simulator::Implementation {
  private:
   void FindClampedVelocityChange(const Eigen::Isometry3d& X_WM);
   bool Advance(const Command& command);
-  std::string DescribeJump() const;
+  std::string DescribeMisplacement() const;
   void ReportWrench();
   void ReportCavity();
   void ReportOpening();
@@ -136,12 +135,21 @@ class Simulator::Implementation {
   SuctionSolution solution_;
   Eigen::Matrix3Xd dv_W_;          // of all nodes [m/s]
   Eigen::Matrix3Xd area_vectors_;  // of the cavity points at its end [m^2]
+  bool free_ones_placed_{false};   // since the last good step
 };
 
 void Simulator::Implementation::SetObjects(std::vector<RigidObject> objects) {
   world_.SetObjects(std::move(objects));
+  free_ones_placed_ = true;
   stage_.ForgetWorld();
   ReportObjects(std::vector<ObjectLoad>(world_.objects().size()));
+}
+
+void Simulator::Implementation::SetObjectPose(int index, const Eigen::Isometry3d& X_WO) {
+  world_.SetPose(index, X_WO);
+  if (world_.BodyOf(index) == RigidWorld::kNone) return;  // it was moved: points keep their sides
+  free_ones_placed_ = true;
+  stage_.ForgetWorld();
 }
 
 void Simulator::Implementation::Reset(const Eigen::Isometry3d& X_WM) {
@@ -194,22 +202,10 @@ void Simulator::Implementation::Step(const Command& command) {
   result_.time += parameters_.time_step;
 }
 
-/// Which object was put into the cup since the last step, so deep that no motion of a step answers
-/// it; empty if none was.
-std::string Simulator::Implementation::DescribeJump() const {
-  int object = 0;
-  const double jump = world_.LongestJump(&object);
-  if (jump < kJump) return {};
-  double deepest = 0.0;
-  for (const double distance : NearestDistances(world_.surfaces(), cavity_.nodes, state_.x_W)) {
-    deepest = std::min(deepest, distance);
-  }
-  if (deepest > -kJump) return {};
-  std::ostringstream message;
-  message << "object '" << world_.objects()[static_cast<std::size_t>(object)].name
-          << "' was moved by " << jump << " m in one step, " << -deepest
-          << " m into the cup; expected at most " << kJump << " m";
-  return message.str();
+/// What was put where no motion of a step can answer it; empty if nothing was.
+std::string Simulator::Implementation::DescribeMisplacement() const {
+  const std::string jump = DescribeJump(world_, cavity_.nodes, state_.x_W);
+  return jump.empty() && free_ones_placed_ ? DescribeOverlap(world_) : jump;
 }
 
 /// One step h, item by item as [Bernardin, Sec. III-A]. False: the result says why, undo it.
@@ -229,8 +225,8 @@ bool Simulator::Implementation::Advance(const Command& command) {
     return fail(StepOutcome::kNonFinite, "the set-point is not in [regulator.min_pressure, 0] Pa");
   }
 
-  const std::string jump = DescribeJump();
-  if (!jump.empty()) return fail(StepOutcome::kUnconverged, jump);
+  const std::string misplacement = DescribeMisplacement();
+  if (!misplacement.empty()) return fail(StepOutcome::kUnconverged, misplacement);
 
   // 1) Free motion: equation (2) with lambda = 0.
   FindClampedVelocityChange(command.X_WM);
@@ -273,6 +269,7 @@ bool Simulator::Implementation::Advance(const Command& command) {
   state_.v_W += dv_W_;
   state_.x_W = contact.x_W;
   world_.Advance(contact.dv.bodies, h);
+  free_ones_placed_ = false;
 
   const Stopwatch stopwatch(&timings->correction);
   result_.X_WM = command.X_WM;
@@ -290,8 +287,9 @@ void Simulator::Implementation::ReportWrench() {
   Eigen::Vector3d torque_W = Eigen::Vector3d::Zero();
   for (Eigen::Index i = 0; i < reaction.cols(); ++i) {
     const int node = system_.clamped_nodes()[static_cast<std::size_t>(i)];
-    // Pressure loads clamped rows too; contacts do not: clamped nodes are never candidates.
-    const Eigen::Vector3d on_mount_W = -(reaction.col(i) - solution_.load.col(node));
+    // Pressure loads clamped rows too, and so do contacts with faces that have clamped corners.
+    const Eigen::Vector3d on_mount_W =
+        solution_.load.col(node) + solution_.contact.forces_W.col(node) - reaction.col(i);
     force_W += on_mount_W;
     torque_W += (state_.x_W.col(node) - result_.X_WM.translation()).cross(on_mount_W);
   }
@@ -383,7 +381,7 @@ const std::vector<RigidObject>& Simulator::objects() const {
 }
 
 void Simulator::SetObjectPose(int index, const Eigen::Isometry3d& X_WO) {
-  implementation_->world_.SetPose(index, X_WO);
+  implementation_->SetObjectPose(index, X_WO);
 }
 
 const StepResult& Simulator::Step(const Command& command) {

@@ -9,6 +9,15 @@ namespace {
 /// How deep behind a sheet a point still belongs to its front, and the other way round. [m]
 constexpr double kSideMemory = 5e-3;
 
+Eigen::Vector3d InShape(const RigidSurface& surface, const Eigen::Vector3d& p_F) {
+  return surface.X_FS.linear().transpose() * (p_F - surface.X_FS.translation());
+}
+
+SurfaceDistance InFrame(const RigidSurface& surface, SurfaceDistance seen) {
+  seen.normal = surface.X_FS.linear() * seen.normal;
+  return seen;
+}
+
 }  // namespace
 
 SurfaceDistance SurfaceSighting::BeginStep(const Shape& shape, const Eigen::Vector3d& p_S,
@@ -27,6 +36,15 @@ SurfaceDistance SurfaceSighting::Look(const Shape& shape, const Eigen::Vector3d&
                                       double reach) {
   const auto* mesh = std::get_if<Mesh>(&shape);
   return mesh == nullptr ? Distance(shape, p_S) : LookAtMesh(**mesh, p_S, reach);
+}
+
+SurfaceDistance SurfaceSighting::BeginStep(const RigidSurface& surface, const Eigen::Vector3d& p_F,
+                                           double reach) {
+  return InFrame(surface, BeginStep(surface.shape, InShape(surface, p_F), reach));
+}
+
+SurfaceDistance SurfaceSighting::Look(const RigidSurface& surface, const Eigen::Vector3d& p_F) {
+  return InFrame(surface, Look(surface.shape, InShape(surface, p_F)));
 }
 
 SurfaceDistance SurfaceSighting::LookAtMesh(const TriangleMesh& mesh, const Eigen::Vector3d& p_S,

@@ -4,7 +4,6 @@
 
 #include <cmath>
 #include <random>
-#include <stdexcept>
 
 #include "support/block_mesh.h"
 #include "vacuum_gripper_sim/core/gmsh_reader.h"
@@ -24,23 +23,6 @@ Vector3d RandomPoint(std::mt19937* random, const Vector3d& lower, const Vector3d
   return lower + share.cwiseProduct(upper - lower);
 }
 
-/// A block with its boundary: its bottom stands in for mount and cavity.
-TetMesh Block(int nx, int ny, int nz, const Vector3d& size, bool quadratic) {
-  constexpr int kFaces[4][6] = {
-      {0, 2, 1, 6, 5, 4}, {0, 1, 3, 4, 8, 7}, {1, 2, 3, 5, 9, 8}, {0, 3, 2, 7, 9, 6}};
-  const TetMesh block = MakeBlock(nx, ny, nz, size, quadratic);
-  for (Eigen::Index e = 0; e < block.elements.cols(); ++e) {
-    for (const auto& corners : kFaces) {
-      Eigen::MatrixXi face(quadratic ? 6 : 3, 1);
-      for (int k = 0; k < face.rows(); ++k) face(k) = block.elements(corners[k], e);
-      double height = 0.0;
-      for (int k = 0; k < 3; ++k) height += block.nodes(2, face(k));
-      if (height == 0.0) return MakeTetMesh("block", block.nodes, block.elements, face, face);
-    }
-  }
-  throw std::logic_error("a block without a bottom");
-}
-
 // Signed distance to the box [0, size], out of its faces.
 double BoxDistance(const Vector3d& size, const Vector3d& p) {
   const Vector3d excess = (p - 0.5 * size).cwiseAbs() - 0.5 * size;
@@ -50,7 +32,7 @@ double BoxDistance(const Vector3d& size, const Vector3d& p) {
 TEST(CupFaces, ABlocksDistanceIsThatOfABox) {
   const Vector3d size(0.03, 0.02, 0.01);
   for (const bool quadratic : {false, true}) {
-    const CupFaces faces(Block(4, 3, 2, size, quadratic));
+    const CupFaces faces(WithBoundary(MakeBlock(4, 3, 2, size, quadratic)));
     EXPECT_EQ(faces.num_faces(), (quadratic ? 4 : 1) * 2 * 2 * (4 * 3 + 4 * 2 + 3 * 2));
     std::mt19937 random(3);
     for (int i = 0; i < 500; ++i) {
@@ -68,7 +50,7 @@ TEST(CupFaces, ABlocksDistanceIsThatOfABox) {
 }
 
 TEST(CupFaces, TouchingPointsHaveAnOutwardNormal) {
-  const CupFaces faces(Block(1, 1, 1, {0.01, 0.01, 0.01}, false));
+  const CupFaces faces(WithBoundary(MakeBlock(1, 1, 1, {0.01, 0.01, 0.01}, false)));
   const auto face = faces.Nearest({0.01, 0.004, 0.003}, 1e-3);
   ASSERT_TRUE(face);
   EXPECT_LT((face->normal_W - Vector3d::UnitX()).norm(), 1e-12);

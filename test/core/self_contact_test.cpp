@@ -18,27 +18,9 @@ using Eigen::Vector3d;
 
 constexpr double kReach = 5e-4;  // m
 
-/// A strip along x, 60 by 4 by 1 mm, with its boundary; one face at x = 0 stands in for the mount
-/// and one at y = 0 for the cavity.
+/// A strip along x, 60 by 4 by 1 mm.
 TetMesh Strip(bool quadratic) {
-  constexpr int kFaces[4][6] = {
-      {0, 2, 1, 6, 5, 4}, {0, 1, 3, 4, 8, 7}, {1, 2, 3, 5, 9, 8}, {0, 3, 2, 7, 9, 6}};
-  const TetMesh block = MakeBlock(30, 2, 1, Vector3d(0.060, 0.004, 0.001), quadratic);
-  const auto face_at_zero = [&](int axis) {
-    for (Eigen::Index e = 0; e < block.elements.cols(); ++e) {
-      for (const auto& corners : kFaces) {
-        Eigen::MatrixXi face(quadratic ? 6 : 3, 1);
-        double sum = 0.0;
-        for (int k = 0; k < face.rows(); ++k) {
-          face(k) = block.elements(corners[k], e);
-          sum += block.nodes(axis, face(k));
-        }
-        if (sum == 0.0) return face;
-      }
-    }
-    return Eigen::MatrixXi();
-  };
-  return MakeTetMesh("strip", block.nodes, block.elements, face_at_zero(1), face_at_zero(0));
+  return WithBoundary(MakeBlock(30, 2, 1, Vector3d(0.060, 0.004, 0.001), quadratic));
 }
 
 constexpr double kThickness = 1e-3;  // m

@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <array>
 #include <map>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -74,6 +75,31 @@ inline TetMesh MakeBlock(int nx, int ny, int nz, const Eigen::Vector3d& size, bo
     }
   }
   return mesh;
+}
+
+/// One face of the block with all corners at zero of an axis, 3 or 6 by 1.
+inline Eigen::MatrixXi FaceAtZero(const TetMesh& block, int axis) {
+  constexpr int kFaces[4][6] = {
+      {0, 2, 1, 6, 5, 4}, {0, 1, 3, 4, 8, 7}, {1, 2, 3, 5, 9, 8}, {0, 3, 2, 7, 9, 6}};
+  for (Eigen::Index e = 0; e < block.elements.cols(); ++e) {
+    for (const auto& corners : kFaces) {
+      Eigen::MatrixXi face(block.quadratic() ? 6 : 3, 1);
+      double sum = 0.0;
+      for (int k = 0; k < face.rows(); ++k) {
+        face(k) = block.elements(corners[k], e);
+        sum += block.nodes(axis, face(k));
+      }
+      if (sum == 0.0) return face;
+    }
+  }
+  throw std::logic_error("a block without a face at zero");
+}
+
+/// The block with its boundary; one face at x = 0 stands in for the mount and one at y = 0 for the
+/// cavity.
+inline TetMesh WithBoundary(const TetMesh& block) {
+  return MakeTetMesh(block.source, block.nodes, block.elements, FaceAtZero(block, 1),
+                     FaceAtZero(block, 0));
 }
 
 }  // namespace vacuum_gripper_sim

@@ -56,12 +56,14 @@ class NarrowPhase {
   int num_pairs() const { return static_cast<int>(seen_.size()); }
   int node(int pair) const { return nodes_[static_cast<std::size_t>(pair) / surfaces_->size()]; }
   int surface(int pair) const { return pair % static_cast<int>(surfaces_->size()); }
-  /// From the start.
+  /// From the start; of a mesh that is farther away than 10 mm a lower bound.
   const SurfaceDistance& seen(int pair) const { return seen_[static_cast<std::size_t>(pair)]; }
   /// The pair with its gap at x1, seen from its start.
   NodeContact Ahead(int pair, const Eigen::Matrix3Xd& x1_W) const;
   /// The pair measured at x1. @param surfaces Where they are then.
   NodeContact At(int pair, const std::vector<RigidSurface>& surfaces, const Eigen::Matrix3Xd& x1_W);
+  /// The surface that is nearest to a node at the start. @pre There is one.
+  int NearestSurface(int node) const;
   /// Of each watched node at x1 to the surface nearest to it; +inf without surfaces. [m]
   void Nearest(const std::vector<RigidSurface>& surfaces, const Eigen::Matrix3Xd& x1_W,
                std::vector<double>* nearest);

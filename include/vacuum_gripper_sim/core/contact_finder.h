@@ -61,6 +61,7 @@ class ContactFinder {
   void Forget() {
     narrow_phase_.Forget();
     face_contacts_.Forget();
+    body_contacts_.Forget();
   }
 
   /// Starts a step. @param world Must outlive it. @param x0_W All nodes, 3 by #nodes. [m]
@@ -77,6 +78,7 @@ class ContactFinder {
       if (wanted(NodeKey(i), NodeGap(i, end))) contacts->push_back(Ahead(NodeKey(i), end));
     }
     for (const FaceContacts::Pair& pair : face_contacts_.pairs()) {
+      if (!GivesWay(pair, pair.seen)) continue;
       if (wanted(FaceKey(pair), FaceGap(pair, end))) contacts->push_back(Ahead(FaceKey(pair), end));
     }
     for (const FoldContact& fold : face_contacts_.folds()) {
@@ -87,6 +89,8 @@ class ContactFinder {
     }
   }
 
+  /// Is what an earlier step called by this key still near enough for Ahead() and At()?
+  bool Sees(std::uint64_t key) const;
   Contact Ahead(std::uint64_t key, const TrialEnd& end) const;
   Contact At(std::uint64_t key, const TrialEnd& end);
 
@@ -101,7 +105,7 @@ class ContactFinder {
     narrow_phase_.Nearest(*end.surfaces, end.x_W, nearest);
   }
   /// The surface that is nearest to a node when the step begins.
-  int NearestSurface(int node) const;
+  int NearestSurface(int node) const { return narrow_phase_.NearestSurface(node); }
 
  private:
   // A key is the pair's number in its detector, and which one that is.
@@ -118,6 +122,7 @@ class ContactFinder {
   std::size_t PlaceOf(int pair) const {
     return static_cast<std::size_t>(pair) / world_->surfaces().size();
   }
+  bool GivesWay(const FaceContacts::Pair& pair, const CupFacePoint& seen) const;
   double NodeGap(int pair, const TrialEnd& end) const;
   double FaceGap(const FaceContacts::Pair& pair, const TrialEnd& end) const;
   double FoldGap(const FoldContact& fold, const TrialEnd& end) const;

@@ -23,6 +23,7 @@ struct ContactSolution {
   SystemVector dv;                  ///< Velocity change of free nodes and bodies. [m/s], [rad/s]
   Eigen::Matrix3Xd x_W;             ///< Positions of all nodes, 3 by #nodes. [m]
   Eigen::VectorXd lambda;           ///< Normal force on each node, #nodes. [N]
+  Eigen::Matrix3Xd forces_W;        ///< Of the contacts on each node, 3 by #nodes. [N]
   std::vector<double> distance;     ///< Of each node to the nearest rigid surface, #nodes; +inf for
                                     ///< nodes inside the cup, and without surfaces. [m]
   std::vector<ObjectLoad> objects;  ///< Contacts with the cup and its pressure, by object.

@@ -34,9 +34,13 @@ class FaceContacts {
 
   /// With ascending ids.
   const std::vector<Pair>& pairs() const { return pairs_; }
+  bool Sees(std::uint32_t id) const;
+  /// @pre Sees(id).
   const Pair& Find(std::uint32_t id) const;
   /// Nodes before other folds, ascending.
   const std::vector<FoldContact>& folds() const { return folds_; }
+  bool SeesFoldOf(int node) const;
+  /// @pre SeesFoldOf(node).
   const FoldContact& FoldOf(int node) const;
 
   /// The boundary of the cup, where Begin() or MoveTo() saw it last.

@@ -26,9 +26,10 @@ struct RigidObject {
   /// Set: the object is free, it moves as gravity and contacts have it. Not set: it is where the
   /// user puts it.
   std::optional<RigidInertia> inertia;
-  Eigen::Vector3d velocity_W{Eigen::Vector3d::Zero()};          ///< A free one's at first: of its
-                                                                ///< origin. [m/s]
-  Eigen::Vector3d angular_velocity_W{Eigen::Vector3d::Zero()};  ///< Likewise. [rad/s]
+  /// A free one's at first: of its origin. [m/s]
+  Eigen::Vector3d velocity_W{Eigen::Vector3d::Zero()};
+  /// Likewise. [rad/s]
+  Eigen::Vector3d angular_velocity_W{Eigen::Vector3d::Zero()};
 };
 
 /// An object of one surface that stays where the surface is.
@@ -37,9 +38,9 @@ RigidObject FixedObject(RigidSurface surface);
 /** Checks an object's numbers.
  @throws std::invalid_argument naming object, field, value and what is allowed: surfaces as
    Validate(const RigidSurface&), at least one of them; the pose finite and a rotation, velocities
-   finite; mass finite
-   and > 0, the rotational inertia finite, symmetric, positive definite and its principal moments
-   those of a body: none larger than the sum of the others. */
+   finite. Of a free one: no plane; mass finite and > 0; the rotational inertia finite, symmetric,
+   positive definite and its principal moments those of a body: none larger than the sum of the
+   others. */
 void Validate(const RigidObject& object);
 
 }  // namespace vacuum_gripper_sim

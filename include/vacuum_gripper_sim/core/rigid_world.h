@@ -52,8 +52,6 @@ class RigidWorld {
   /// somewhere: the point that is at p_W when it ends). [m]
   Eigen::Vector3d Displacement(int object, const Eigen::Vector3d& p_W, const Eigen::VectorXd& dV,
                                double h) const;
-  /// The farthest of all objects that were put somewhere since the last step, and how far. [m]
-  double LongestJump(int* object) const;
 
   /// Ends a step: free bodies move.
   void Advance(const Eigen::VectorXd& dV, double h);

@@ -39,6 +39,10 @@ class SurfaceSighting {
   /// Of a point that may be a trial. @returns distance and normal in the shape's frame.
   SurfaceDistance Look(const Shape& shape, const Eigen::Vector3d& p_S, double reach = kExact);
 
+  /// The same in the frame F of a placed surface. @param p_F The point. [m]
+  SurfaceDistance BeginStep(const RigidSurface& surface, const Eigen::Vector3d& p_F, double reach);
+  SurfaceDistance Look(const RigidSurface& surface, const Eigen::Vector3d& p_F);
+
   static constexpr double kExact = std::numeric_limits<double>::infinity();
 
  private:

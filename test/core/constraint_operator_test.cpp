@@ -1,0 +1,227 @@
+#include "vacuum_gripper_sim/core/constraint_operator.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+#include <vector>
+
+#include "support/block_mesh.h"
+
+namespace vacuum_gripper_sim {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::Vector3d;
+using Eigen::VectorXd;
+
+constexpr double kTimeStep = 0.01;  // s
+/// Objects of the world below.
+constexpr int kGround = 0;
+constexpr int kBox = 1;
+constexpr int kBall = 2;
+
+/// An elastic block beside a fixed plane and two free bodies.
+class ConstraintOperatorTest : public testing::Test {
+ protected:
+  ConstraintOperatorTest() {
+    system_.Linearize(mesh_.nodes, Eigen::Matrix3Xd::Zero(3, mesh_.nodes.cols()), kTimeStep,
+                      {0.0, 2e-3}, Vector3d::Zero());
+    factorization_.Analyze(system_.A_ff());
+    EXPECT_TRUE(factorization_.Factorize(system_.A_ff()));
+    RigidObject box = FixedObject(RigidSurface{"box", Box{{0.02, 0.04, 0.06}}});
+    box.X_WO.linear() = Eigen::AngleAxisd(0.4, Vector3d::UnitZ()).toRotationMatrix();
+    box.inertia = RigidInertia();
+    box.inertia->mass = 0.2;
+    box.inertia->p_OC = {0.001, 0.002, 0.0};
+    box.inertia->about_C_O = Vector3d(3e-5, 2e-5, 1.5e-5).asDiagonal();
+    RigidObject ball = FixedObject(RigidSurface{"ball", Sphere{0.02}});
+    ball.X_WO.translation() = Vector3d(0.0, 0.0, 0.05);
+    ball.inertia = RigidInertia();
+    ball.inertia->mass = 0.1;
+    ball.inertia->about_C_O = 1e-5 * Eigen::Matrix3d::Identity();
+    world_.SetObjects({FixedObject(RigidSurface{"ground", Plane{}}), box, ball});
+    operator_.Reset(factorization_, world_, kTimeStep);
+  }
+
+  /// @param nodes Places among the free nodes.
+  Contact On(const std::vector<int>& nodes, int object, const Vector3d& normal,
+             double friction) const {
+    Contact contact;
+    contact.num_nodes = static_cast<int>(nodes.size());
+    for (std::size_t k = 0; k < nodes.size(); ++k) {
+      contact.nodes[k] = system_.free_nodes()[static_cast<std::size_t>(nodes[k])];
+      contact.weights[k] = (k == 3 ? -1.0 : 1.0) / static_cast<double>(k + 1);
+    }
+    contact.object = object;
+    contact.p_W = Vector3d(0.011, 0.004, 0.007);
+    contact.normal = normal.normalized();
+    contact.across = Vector3d::UnitX();
+    contact.friction = friction;
+    return contact;
+  }
+  static Contact Between(int object, int other, double friction) {
+    Contact contact;
+    contact.object = object;
+    contact.other = other;
+    contact.p_W = Vector3d(-0.004, 0.008, 0.03);
+    contact.normal = Vector3d(0.2, 0.1, 1.0).normalized();
+    contact.across = Vector3d::UnitX();
+    contact.friction = friction;
+    return contact;
+  }
+  std::vector<Contact> EveryKind() const {
+    return {On({5}, kGround, {0.0, 0.3, 1.0}, 0.0),
+            On({7}, kGround, {0.0, 0.2, 1.0}, 0.5),
+            On({5}, kBox, {0.0, 1.0, 1.0}, 0.0),
+            On({5, 7, 9}, kGround, {0.1, 0.0, 1.0}, 0.3),
+            On({2, 7, 9, 11}, -1, {0.1, 0.5, 1.0}, 0.0),
+            On({3, 4, 5}, kBall, {0.0, 1.0, 0.2}, 0.7),
+            Between(kBox, kBall, 0.4),
+            Between(kGround, kBox, 0.0)};
+  }
+
+  /// How the velocities of cup and bodies (side by side) change gaps and slips, contact by contact.
+  MatrixXd Jacobian(const std::vector<Contact>& contacts) const {
+    const Eigen::Index size = 3 * system_.num_free();
+    std::vector<Eigen::RowVectorXd> rows;
+    for (const Contact& contact : contacts) {
+      Vector3d axes[3] = {contact.normal, Vector3d::Zero(), Vector3d::Zero()};
+      axes[2] = contact.normal.cross(contact.across).normalized();
+      axes[1] = axes[2].cross(contact.normal);
+      for (int axis = 0; axis < (contact.friction > 0.0 ? 3 : 1); ++axis) {
+        Eigen::RowVectorXd row = Eigen::RowVectorXd::Zero(size + 12);
+        for (std::size_t k = 0; k < static_cast<std::size_t>(contact.num_nodes); ++k) {
+          row.segment<3>(system_.FreeRow(contact.nodes[k])) += contact.weights[k] * axes[axis];
+        }
+        for (const auto& [object, sign] : {std::pair(contact.object, -1.0), {contact.other, 1.0}}) {
+          if (object != kBox && object != kBall) continue;
+          const int body = world_.BodyOf(object);
+          const Vector3d arm = contact.p_W - world_.CentreOfMass(body);
+          row.segment<3>(size + 6 * body) += sign * axes[axis];
+          row.segment<3>(size + 6 * body + 3) += sign * arm.cross(axes[axis]);
+        }
+        rows.push_back(row);
+      }
+    }
+    MatrixXd all(static_cast<Eigen::Index>(rows.size()), size + 12);
+    for (Eigen::Index i = 0; i < all.rows(); ++i) all.row(i) = rows[static_cast<std::size_t>(i)];
+    return all;
+  }
+  /// A and M on one diagonal.
+  MatrixXd Mass() {
+    const Eigen::Index size = 3 * system_.num_free();
+    MatrixXd mass = MatrixXd::Zero(size + 12, size + 12);
+    mass.topLeftCorner(size, size) =
+        MatrixXd(MatrixXd(system_.A_ff()).selfadjointView<Eigen::Lower>());
+    for (int body = 0; body < 2; ++body) {
+      mass.block<6, 6>(size + 6 * body, size + 6 * body) = world_.Mass(body);
+    }
+    return mass;
+  }
+  MatrixXd DenseW(const std::vector<Contact>& contacts) {
+    const MatrixXd J = Jacobian(contacts);
+    return kTimeStep * kTimeStep * J * Mass().partialPivLu().solve(J.transpose());
+  }
+  static void ExpectNear(const MatrixXd& a, const MatrixXd& b, double relative) {
+    ASSERT_EQ(a.rows(), b.rows());
+    ASSERT_EQ(a.cols(), b.cols());
+    EXPECT_LT((a - b).cwiseAbs().maxCoeff(), relative * b.cwiseAbs().maxCoeff());
+  }
+
+  const TetMesh mesh_ = MakeBlock(4, 3, 2, {0.02, 0.01, 0.01}, false);
+  const ElasticBody body_{mesh_, {338000.0, 0.45, 1080.0}};
+  ImplicitEuler system_{body_, mesh_.mount_nodes};
+  SparseCholesky factorization_;
+  RigidWorld world_;
+  ConstraintOperator operator_{system_};
+};
+
+// Bodies on bodies give way by 1e-7 of what they do more.
+constexpr double kClose = 2e-7;
+
+TEST_F(ConstraintOperatorTest, EveryKindAloneIsTheDenseW) {
+  const std::vector<Contact> kinds = EveryKind();
+  for (std::size_t i = 0; i < kinds.size(); ++i) {
+    SCOPED_TRACE(i);
+    operator_.Reset(factorization_, world_, kTimeStep);
+    operator_.SetContacts({kinds[i]});
+    EXPECT_EQ(operator_.plain(), i == 0);
+    ExpectNear(operator_.W(), DenseW({kinds[i]}), kClose);
+  }
+}
+
+TEST_F(ConstraintOperatorTest, AllTogetherAreTheDenseW) {
+  operator_.SetContacts(EveryKind());
+  EXPECT_FALSE(operator_.plain());
+  EXPECT_TRUE(operator_.IsPlain(0));
+  EXPECT_FALSE(operator_.IsPlain(1));
+  EXPECT_EQ(operator_.num_rows(), 16);
+  ExpectNear(operator_.W(), DenseW(EveryKind()), kClose);
+}
+
+// One more contact every time, and directions that turn: only where columns are bound to the
+// normals they came with may they not.
+TEST_F(ConstraintOperatorTest, AppendedAndTurnedContactsAreTheDenseW) {
+  std::vector<Contact> contacts;
+  for (const Contact& contact : EveryKind()) {
+    contacts.push_back(contact);
+    for (std::size_t i = 0; i + 1 < contacts.size(); ++i) {
+      if (operator_.IsPlain(i)) continue;
+      contacts[i].normal = (contacts[i].normal + Vector3d(0.1, -0.05, 0.02)).normalized();
+    }
+    operator_.SetContacts(contacts);
+    ExpectNear(operator_.W(), DenseW(contacts), kClose);
+  }
+}
+
+TEST_F(ConstraintOperatorTest, ForcesDoToGapsWhatWSays) {
+  for (const bool plain : {true, false}) {
+    SCOPED_TRACE(plain);
+    std::vector<Contact> contacts = EveryKind();
+    if (plain) contacts.resize(1);
+    operator_.Reset(factorization_, world_, kTimeStep);
+    operator_.SetContacts(contacts);
+    const MatrixXd J = Jacobian(contacts);
+    const Eigen::Index size = 3 * system_.num_free();
+    const VectorXd lambda = VectorXd::LinSpaced(operator_.num_rows(), 0.5, 2.0);
+    const SystemVector none{VectorXd::Zero(size), VectorXd::Zero(12)};
+
+    SystemVector b = none;
+    operator_.AddImpulses(lambda, &b);
+    VectorXd stacked(size + 12);
+    stacked << b.cup, b.bodies;
+    ExpectNear(stacked, kTimeStep * J.transpose() * lambda, 1e-12);
+
+    SystemVector y = none;
+    operator_.AddForces(lambda, &y);
+    ExpectNear(y.cup, factorization_.Eliminate(b.cup), 1e-10);
+    ExpectNear(operator_.GapChanges(y), operator_.W() * lambda, kClose);
+    stacked << factorization_.BackSubstitute(y.cup), y.bodies;
+    ExpectNear(operator_.GapChanges(y), kTimeStep * J * stacked, 1e-10);
+    if (plain) continue;
+    ExpectNear(y.bodies, operator_.BodyVelocities(b.bodies), 1e-12);
+    ExpectNear(operator_.BodyImpulses(y.bodies), b.bodies, 1e-12);
+  }
+}
+
+// Past an edge a normal may turn by a right angle, into what was chosen as across it.
+TEST_F(ConstraintOperatorTest, AxesAreOrthonormalWhateverIsAcross) {
+  for (const Vector3d& normal : {Vector3d(1.0, 0.0, 0.0), Vector3d(1.0, 1e-9, 0.0),
+                                 Vector3d(0.0, 1.0, 0.0), Vector3d(-1.0, 0.05, 0.0)}) {
+    const Eigen::Matrix3d axes = ConstraintOperator::Axes(On({3}, kGround, normal, 0.5));
+    EXPECT_TRUE((axes.transpose() * axes).isIdentity(1e-12));
+    EXPECT_LT((axes.col(0) - normal.normalized()).norm(), 1e-12);
+    EXPECT_NEAR(axes.determinant(), 1.0, 1e-12);
+  }
+}
+
+TEST_F(ConstraintOperatorTest, NoContactsAreNoRows) {
+  operator_.SetContacts({});
+  EXPECT_TRUE(operator_.plain());
+  EXPECT_EQ(operator_.num_rows(), 0);
+  EXPECT_EQ(operator_.W().size(), 0);
+}
+
+}  // namespace
+}  // namespace vacuum_gripper_sim
