@@ -124,8 +124,11 @@ MarkerPainter::MarkerPainter(const TetMesh& mesh, const CavitySurface& cavity)
 visualization_msgs::MarkerArray MarkerPainter::Paint(const StepResult& result,
                                                      const std_msgs::Header& header) const {
   visualization_msgs::MarkerArray array;
-  array.markers = {PaintSkin(result, header), PaintZones(result, header),
-                   PaintForce(result, header)};
+  // One by one: a braced list would copy them, hundreds of kilobytes.
+  array.markers.reserve(3);
+  array.markers.push_back(PaintSkin(result, header));
+  array.markers.push_back(PaintZones(result, header));
+  array.markers.push_back(PaintForce(result, header));
   return array;
 }
 
