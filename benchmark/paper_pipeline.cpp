@@ -80,7 +80,7 @@ double PaperPipeline::NormalVelocity(const NodeContact& contact, const Eigen::Ve
 }
 
 /// One iteration of conjugate gradients from zero.
-Eigen::VectorXd PaperPipeline::FreeMotion(const Eigen::VectorXd& b) const {
+Eigen::VectorXd PaperPipeline::FreeMotion(const Eigen::VectorXd& b) {
   const Eigen::VectorXd z = factorization_.Solve(b);
   const Eigen::VectorXd Az = system_.Multiply(z);
   return (b.dot(z) / z.dot(Az)) * z;

@@ -66,7 +66,7 @@ class PaperPipeline {
   int num_constraints() const { return num_constraints_; }  ///< Contacts of the last step.
 
  private:
-  Eigen::VectorXd FreeMotion(const Eigen::VectorXd& b) const;
+  Eigen::VectorXd FreeMotion(const Eigen::VectorXd& b);
   Eigen::VectorXd PressureRow(const StepProblem& problem) const;
   Eigen::Matrix3Xd PointPositions(const Eigen::Matrix3Xd& x_W) const;
   void AddImpulse(const NodeContact& contact, double impulse, Eigen::VectorXd* b) const;
