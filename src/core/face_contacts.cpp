@@ -6,8 +6,9 @@
 namespace vacuum_gripper_sim {
 namespace {
 
-/// Of points along an edge: about the size of the lip's faces. [m]
-constexpr double kSpacing = 1e-3;
+/// Of points along an edge: half the size of the lip's faces. Where a sharp edge of the cup crosses
+/// one between two points, both pass each other by up to a sixth of it. [m]
+constexpr double kSpacing = 5e-4;
 
 auto FindPlace(const std::vector<FaceContacts::Pair>& pairs, std::uint32_t id) {
   return std::lower_bound(
