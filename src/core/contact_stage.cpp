@@ -43,6 +43,7 @@ bool Sticks(const ContactRows& contact, const VectorXd& lambda) {
 
 std::vector<bool> AreFree(const std::vector<int>& nodes, const ImplicitEuler& system) {
   std::vector<bool> free;
+  free.reserve(nodes.size());
   for (const int node : nodes) free.push_back(system.FreeRow(node) >= 0);
   return free;
 }
@@ -284,7 +285,7 @@ bool ContactStage::SolveWithFactorization(const SystemVector& impulse, ContactSo
     TrialEnd end;
     {
       const Stopwatch stopwatch(&timings->correction);
-      solution->dv.cup += solver_->factorization().BackSubstitute(std::move(y.cup));
+      solution->dv.cup += solver_->factorization().BackSubstitute(y.cup);
       solution->dv.bodies += y.bodies;
       if (!solver_->current() && (pass == kMaxStalePasses || !Refine(impulse, solution))) {
         return false;
