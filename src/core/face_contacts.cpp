@@ -7,8 +7,9 @@
 namespace vacuum_gripper_sim {
 namespace {
 
-/// Of points along an edge: about the size of the lip's faces. [m]
-constexpr double kSpacing = 1e-3;
+/// Of points along an edge: half the size of the lip's faces. Where a sharp edge of the cup crosses
+/// one between two points, both pass each other by up to a sixth of it. [m]
+constexpr double kSpacing = 5e-4;
 
 /// Folds nearer than this may touch during a step. [m]
 constexpr double kFoldReach = 5e-4;

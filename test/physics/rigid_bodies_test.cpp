@@ -270,6 +270,25 @@ TEST(RigidBodies, TeleportedBoxComesToRestAndTheNodeIsTold) {
   EXPECT_LT((world.object(1).X_WO.translation() - X_WO.translation()).norm(), 1e-5);
 }
 
+// Contact would throw it out: no step until somebody puts it elsewhere.
+TEST(RigidBodies, BoxThatStartsInsideTheTableIsNamed) {
+  GripWorld world({Table(0.5), FreeBox({0.06, 0.06, 0.03}, 0.1, 0.5, {0.0, 0.0, 0.005})}, kAway,
+                  WithGravity(A20(0.01)));
+  for (int i = 0; i < 3; ++i) {
+    world.Step(0.0);
+    EXPECT_NE(world.result().outcome, StepOutcome::kOk);
+    EXPECT_NE(world.result().message.find("'box' was put 0.01 m into object 'table'"),
+              std::string::npos)
+        << world.result().message;
+  }
+  Eigen::Isometry3d X_WO = Eigen::Isometry3d::Identity();
+  X_WO.translation().z() = 0.015;
+  world.simulator().SetObjectPose(1, X_WO);
+  world.Wait(0.05, 0.0);
+  EXPECT_EQ(world.result().outcome, StepOutcome::kOk);
+  EXPECT_NEAR(world.object(1).X_WO.translation().z(), 0.015, 1e-5);
+}
+
 // An obstacle that jumps into the cup cannot be answered by any motion: the step is undone, the
 // message names the obstacle, and the next ones are good again once it is gone.
 TEST(RigidBodies, ObjectThatJumpsIntoTheCupIsNamed) {

@@ -46,6 +46,8 @@ class Simulator {
 
    A step that ends unconverged or non-finite is undone: the result then shows the last good state
    with the reason in `outcome` and `message`, and the next step starts from that state.
+   One that cannot go well is not tried: an object was put more than 5 mm into the cup in one step,
+   or a free one as much into another; the message names them, until they are put elsewhere.
 
    @pre command.X_WM is a rigid motion, command.pressure_setpoint in [min_pressure, 0]; a command
      that is not is refused as kNonFinite, nothing moves.
