@@ -91,7 +91,7 @@ void ConstraintOperator::SetRows(const std::vector<Contact>& contacts) {
   rows_between_bodies_.clear();
   for (const Contact& contact : contacts) {
     rows_.push_back({num_rows_, contact.friction});
-    const Index next = num_rows_ + (contact.friction > 0.0 ? 3 : 1);
+    const Index next = num_rows_ + rows_.back().size();
     for (; num_rows_ < next; ++num_rows_) {
       if (contact.num_nodes == 0) rows_between_bodies_.push_back(num_rows_);
     }
@@ -104,7 +104,7 @@ void ConstraintOperator::SetRows(const std::vector<Contact>& contacts) {
     const Contact& contact = contacts[i];
     const Eigen::Matrix3d axes = Axes(contact);
     const Index first = rows_[i].normal;
-    const Index num_axes = rows_[i].has_tangents() ? 3 : 1;
+    const Index num_axes = rows_[i].size();
     if (IsPlain(i)) {
       entries.emplace_back(static_cast<int>(first), plain_column_[i], 1.0);
       continue;
@@ -120,23 +120,23 @@ void ConstraintOperator::SetRows(const std::vector<Contact>& contacts) {
         }
       }
     }
-    AddBodyEntries(contact, contact.object, -1.0, first);
-    AddBodyEntries(contact, contact.other, 1.0, first);
+    AddBodyEntries(contact, contact.object, -1.0, rows_[i]);
+    AddBodyEntries(contact, contact.other, 1.0, rows_[i]);
   }
   H_.resize(num_rows_, num_columns_);
   H_.setFromTriplets(entries.begin(), entries.end());
 }
 
 void ConstraintOperator::AddBodyEntries(const Contact& contact, int object, double sign,
-                                        Index row) {
+                                        const ContactRows& rows) {
   if (object == RigidWorld::kNone || world_->BodyOf(object) == RigidWorld::kNone) return;
   const int body = world_->BodyOf(object);
   const Eigen::Vector3d arm = contact.p_W - bodies_[static_cast<std::size_t>(body)].c_W;
   const Eigen::Matrix3d axes = Axes(contact);
-  for (Index axis = 0; axis < (contact.friction > 0.0 ? 3 : 1); ++axis) {
+  for (Index axis = 0; axis < rows.size(); ++axis) {
     const Eigen::Vector3d d = axes.col(axis);
-    J_.block<1, 3>(row + axis, 6 * body) += sign * d.transpose();
-    J_.block<1, 3>(row + axis, 6 * body + 3) += sign * arm.cross(d).transpose();
+    J_.block<1, 3>(rows.normal + axis, 6 * body) += sign * d.transpose();
+    J_.block<1, 3>(rows.normal + axis, 6 * body + 3) += sign * arm.cross(d).transpose();
   }
 }
 

@@ -55,14 +55,11 @@ bool ContactFinder::GivesWay(const FaceContacts::Pair& pair, const CupFacePoint&
 }
 
 double ContactFinder::NodeGap(int pair, const TrialEnd& end) const {
-  double gap = narrow_phase_.Ahead(pair, end.x_W).gap;
+  const double gap = narrow_phase_.Ahead(pair, end.x_W).gap;
   const int object = world_->ObjectOf(narrow_phase_.surface(pair));
-  if (world_->BodyOf(object) != RigidWorld::kNone) {
-    const SurfaceDistance& seen = narrow_phase_.seen(pair);
-    const Eigen::Vector3d p_W = x0_W_.col(narrow_phase_.node(pair)) - seen.distance * seen.normal;
-    gap -= seen.normal.dot(world_->Displacement(object, p_W, end.dV, h_));
-  }
-  return gap;
+  const SurfaceDistance& seen = narrow_phase_.seen(pair);
+  const Eigen::Vector3d p_W = x0_W_.col(narrow_phase_.node(pair)) - seen.distance * seen.normal;
+  return gap - seen.normal.dot(world_->FreeDisplacement(object, p_W, end.dV, h_));
 }
 
 double ContactFinder::FaceGap(const FaceContacts::Pair& pair, const TrialEnd& end) const {
@@ -72,10 +69,7 @@ double ContactFinder::FaceGap(const FaceContacts::Pair& pair, const TrialEnd& en
     of_face_W += pair.seen.weights(k) * (end.x_W.col(node) - x0_W_.col(node));
   }
   const int object = world_->ObjectOf(pair.surface);
-  Eigen::Vector3d of_edge_W = Eigen::Vector3d::Zero();
-  if (world_->BodyOf(object) != RigidWorld::kNone) {
-    of_edge_W = world_->Displacement(object, pair.p_W, end.dV, h_);
-  }
+  const Eigen::Vector3d of_edge_W = world_->FreeDisplacement(object, pair.p_W, end.dV, h_);
   return pair.seen.distance + pair.seen.normal_W.dot(of_edge_W - of_face_W);
 }
 
@@ -93,11 +87,8 @@ double ContactFinder::BodyGap(const BodyContacts::Pair& pair, const TrialEnd& en
   const Eigen::Vector3d p_W = pair.p_W - pair.radius * n;
   const Eigen::Vector3d q_W = p_W - pair.seen.distance * n;
   const int object = world_->ObjectOf(pair.surface);
-  // The object that is put somewhere is seen there from the start.
   const auto moved = [&](int index, const Eigen::Vector3d& point_W) {
-    return world_->BodyOf(index) == RigidWorld::kNone
-               ? 0.0
-               : n.dot(world_->Displacement(index, point_W, end.dV, h_));
+    return n.dot(world_->FreeDisplacement(index, point_W, end.dV, h_));
   };
   return pair.seen.distance + moved(world_->ObjectOf(pair.feeling), pair.p_W) - moved(object, q_W);
 }
@@ -211,11 +202,8 @@ Contact ContactFinder::At(std::uint64_t key, const TrialEnd& end) {
   if (key >= kFaceKeys && key < kFoldKeys) {
     const FaceContacts::Pair& pair =
         face_contacts_.Find(static_cast<std::uint32_t>(key - kFaceKeys));
-    Eigen::Vector3d p_W = pair.p_W;
     const int object = world_->ObjectOf(pair.surface);
-    if (world_->BodyOf(object) != RigidWorld::kNone) {
-      p_W += world_->Displacement(object, pair.p_W, end.dV, h_);
-    }
+    const Eigen::Vector3d p_W = pair.p_W + world_->FreeDisplacement(object, pair.p_W, end.dV, h_);
     const std::optional<CupFacePoint> seen = face_contacts_.faces().Nearest(p_W, 2.0 * kFaceReach);
     if (seen && GivesWay(pair, *seen)) return FaceAgainst(pair, *seen, seen->distance, end);
     return FaceAgainst(pair, pair.seen, kFaceReach, end);
@@ -224,10 +212,7 @@ Contact ContactFinder::At(std::uint64_t key, const TrialEnd& end) {
     const BodyContacts::Pair& pair =
         body_contacts_.Find(static_cast<std::uint32_t>(key - kBodyKeys));
     const int other = world_->ObjectOf(pair.feeling);
-    Eigen::Vector3d p_W = pair.p_W;
-    if (world_->BodyOf(other) != RigidWorld::kNone) {
-      p_W += world_->Displacement(other, pair.p_W, end.dV, h_);
-    }
+    const Eigen::Vector3d p_W = pair.p_W + world_->FreeDisplacement(other, pair.p_W, end.dV, h_);
     const SurfaceDistance seen =
         body_contacts_.Look(pair, (*end.surfaces)[static_cast<std::size_t>(pair.surface)], p_W);
     return BodyAgainst(pair, seen, seen.distance - pair.radius, end);

@@ -356,6 +356,8 @@ void ContactStage::MeasureEnd(const TrialEnd& end, ContactSolution* solution) {
 
 void ContactStage::Report(ContactSolution* solution) const {
   solution->num_contacts = 0;
+  solution->contact_force = 0.0;
+  solution->fold_force = 0.0;
   solution->num_candidates = static_cast<int>(candidates_.size());
   solution->lambda.setZero(x0_.cols());
   solution->forces_W.setZero(3, x0_.cols());
@@ -381,7 +383,11 @@ void ContactStage::Report(ContactSolution* solution) const {
       const auto place = static_cast<std::size_t>(k);
       solution->forces_W.col(contact.nodes[place]) += contact.weights[place] * on_cup_W;
     }
-    if (contact.object == RigidWorld::kNone) continue;
+    if (contact.object == RigidWorld::kNone) {
+      solution->fold_force += normal_force;
+      continue;  // within the cup
+    }
+    solution->contact_force += normal_force;
     const auto object = static_cast<std::size_t>(contact.object);
     const Vector3d arm = contact.p_W - world_->objects()[object].X_WO.translation();
     solution->objects[object].force_W -= on_cup_W;

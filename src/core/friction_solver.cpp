@@ -253,7 +253,7 @@ McpStatistics SolveFrictionalContacts(const Eigen::MatrixXd& W, const Eigen::Vec
                                       Eigen::VectorXd* lambda) {
   const Index size = delta.size();
   Index covered = 0;
-  for (const ContactRows& contact : rows) covered += contact.has_tangents() ? 3 : 1;
+  for (const ContactRows& contact : rows) covered += contact.size();
   if (W.rows() != size || W.cols() != size || lambda->size() != size || covered != size) {
     throw std::invalid_argument(
         "SolveFrictionalContacts: W, delta, lambda and the contacts' rows must agree in size");

@@ -132,6 +132,12 @@ Vector3d RigidWorld::Displacement(int object, const Vector3d& p_W, const Eigen::
   return p_W - X_WO_before * (X_WO.inverse() * p_W);
 }
 
+Vector3d RigidWorld::FreeDisplacement(int object, const Vector3d& p_W, const Eigen::VectorXd& dV,
+                                      double h) const {
+  if (BodyOf(object) == kNone) return Vector3d::Zero();
+  return Displacement(object, p_W, dV, h);
+}
+
 void RigidWorld::Advance(const Eigen::VectorXd& dV, double h) {
   for (int i = 0; i < num_bodies(); ++i) {
     Body& body = bodies_[static_cast<std::size_t>(i)];

@@ -317,7 +317,8 @@ void Simulator::Implementation::ReportCavity() {
   }
   ReportOpening();
   ReportCavitySize();
-  result_.contact_force = contact.lambda.sum();
+  result_.contact_force = contact.contact_force;
+  result_.fold_force = contact.fold_force;
   result_.friction_force = contact.friction_force;
   result_.num_contacts = static_cast<std::uint32_t>(contact.num_contacts);
   result_.num_candidates = static_cast<std::uint32_t>(contact.num_candidates);

@@ -70,7 +70,7 @@ class ConstraintOperator {
   bool MayBePlain(const Contact& contact) const;
   void AddColumns(const std::vector<Contact>& contacts);
   void SetRows(const std::vector<Contact>& contacts);
-  void AddBodyEntries(const Contact& contact, int object, double sign, Eigen::Index row);
+  void AddBodyEntries(const Contact& contact, int object, double sign, const ContactRows& rows);
   void UpdateW();
 
   const ImplicitEuler* system_;

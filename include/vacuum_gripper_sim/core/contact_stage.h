@@ -27,6 +27,8 @@ struct ContactSolution {
   std::vector<double> distance;     ///< Of each node to the nearest rigid surface, #nodes; +inf for
                                     ///< nodes inside the cup, and without surfaces. [m]
   std::vector<ObjectLoad> objects;  ///< Contacts with the cup and its pressure, by object.
+  double contact_force{0.0};        ///< Sum of the normal forces of objects on the cup. [N]
+  double fold_force{0.0};           ///< Sum of the normal forces where the cup's folds meet. [N]
   double friction_force{0.0};       ///< Sum of the tangential forces on the cup, their size. [N]
   double max_penetration{0.0};      ///< Over all free surface nodes, >= 0. [m]
   double error{0.0};                ///< Largest penetration, gap under a loaded contact, or way

@@ -14,6 +14,7 @@ struct ContactRows {
   double friction{0.0};  ///< mu. [-] 0: there are no tangents.
 
   bool has_tangents() const { return friction > 0.0; }
+  Eigen::Index size() const { return has_tangents() ? 3 : 1; }
   Eigen::Index tangent() const { return normal + 1; }  ///< The first of two.
 };
 

@@ -53,6 +53,11 @@ class RigidWorld {
   Eigen::Vector3d Displacement(int object, const Eigen::Vector3d& p_W, const Eigen::VectorXd& dV,
                                double h) const;
 
+  /// Of that only what a step itself brings about: zero of what is not free, which is seen where it
+  /// is put from the step's start. [m]
+  Eigen::Vector3d FreeDisplacement(int object, const Eigen::Vector3d& p_W,
+                                   const Eigen::VectorXd& dV, double h) const;
+
   /// Ends a step: free bodies move.
   void Advance(const Eigen::VectorXd& dV, double h);
 

@@ -71,7 +71,8 @@ struct StepResult {
   /// Of the points that the pressure acts on; of an open cup, of those a seal would close off.
   double cavity_area{0.0};          ///< Projected on the suction axis. [m^2]
   double cavity_volume{0.0};        ///< Up to the plane across the edge of those points. [m^3]
-  double contact_force{0.0};        ///< Sum of the contacts' normal forces. [N]
+  double contact_force{0.0};        ///< Sum of the normal forces of objects on the cup. [N]
+  double fold_force{0.0};           ///< Likewise where the cup's folds meet. [N]
   double friction_force{0.0};       ///< Size of the tangential forces' sum. [N]
   std::uint32_t num_contacts{0};    ///< Contacts of the cup that carry load.
   std::uint32_t num_candidates{0};  ///< Contact constraints in the problem.
