@@ -34,7 +34,7 @@ void TimeseriesWriter::Write(const StepResult& r) {
     << r.solver_iterations << ',' << r.solver_residual << ',' << 1e3 * r.timings.total << ','
     << r.bottleneck_gap << ',' << r.cavity_volume << ',' << r.num_candidates << ','
     << r.max_penetration;
-  for (const std::uint32_t count : r.classification.zone_counts) s << ',' << count;
+  for (const std::uint32_t count : r.zone_counts) s << ',' << count;
   s << ',' << r.linear_iterations << ',' << r.factorizations << ',' << static_cast<int>(r.outcome)
     << ',' << r.opening.azimuth << ',' << r.opening.width << ',' << r.opening.largest_gap << ','
     << r.friction_force << '\n';

@@ -8,8 +8,6 @@
 #include <string>
 #include <vector>
 
-#include "vacuum_gripper_sim/core/simulator.h"
-
 namespace vacuum_gripper_sim {
 namespace {
 
@@ -17,8 +15,11 @@ constexpr int kDigits = 12;
 constexpr int kVtkTetra = 10;
 constexpr int kVtkQuadraticTetra = 24;
 
-void CheckSizes(const TetMesh& mesh, const CavitySurface& cavity, const StepResult& result) {
-  const auto matches = [&](std::size_t size) { return size == 0 || size == cavity.nodes.size(); };
+void CheckSizes(const CupArray& cups, const StepResult& result) {
+  const TetMesh& mesh = cups.mesh;
+  const auto matches = [&](std::size_t size) {
+    return size == 0 || size == cups.cavities.nodes.size();
+  };
   if (result.x_W.cols() != mesh.nodes.cols() || !matches(result.gap.size()) ||
       !matches(result.classification.zones.size())) {
     throw std::invalid_argument("WriteVtu: the result has " + std::to_string(result.x_W.cols()) +
@@ -72,11 +73,10 @@ void WriteCells(const TetMesh& mesh, std::ostream* stream) {
   *stream << "      </Cells>\n";
 }
 
-void WritePointData(const TetMesh& mesh, const CavitySurface& cavity, const StepResult& result,
-                    std::ostream* stream) {
-  const Eigen::Isometry3d X_WR = result.X_WM * MountFromRest(mesh);
-  const Eigen::Matrix3Xd rest_W = (X_WR.linear() * mesh.nodes).colwise() + X_WR.translation();
-  const auto num_nodes = static_cast<std::size_t>(mesh.num_nodes());
+void WritePointData(const CupArray& cups, const StepResult& result, std::ostream* stream) {
+  const CavitySurface& cavity = cups.cavities;
+  const Eigen::Matrix3Xd rest_W = result.X_WM * cups.rest_M;
+  const auto num_nodes = static_cast<std::size_t>(cups.mesh.num_nodes());
   std::vector<int> zone(num_nodes, -1);
   std::vector<double> gap(num_nodes, kNoGap);
   for (std::size_t i = 0; i < cavity.nodes.size(); ++i) {
@@ -97,9 +97,9 @@ void WritePointData(const TetMesh& mesh, const CavitySurface& cavity, const Step
 
 }  // namespace
 
-void WriteVtu(const TetMesh& mesh, const CavitySurface& cavity, const StepResult& result,
-              std::ostream* stream) {
-  CheckSizes(mesh, cavity, result);
+void WriteVtu(const CupArray& cups, const StepResult& result, std::ostream* stream) {
+  CheckSizes(cups, result);
+  const TetMesh& mesh = cups.mesh;
   stream->imbue(std::locale::classic());
   stream->precision(kDigits);
   *stream << "<?xml version=\"1.0\"?>\n"
@@ -111,7 +111,7 @@ void WriteVtu(const TetMesh& mesh, const CavitySurface& cavity, const StepResult
   WriteVectors("Points", result.x_W, stream);
   *stream << "      </Points>\n";
   WriteCells(mesh, stream);
-  WritePointData(mesh, cavity, result, stream);
+  WritePointData(cups, result, stream);
   *stream << "    </Piece>\n  </UnstructuredGrid>\n</VTKFile>\n";
 }
 

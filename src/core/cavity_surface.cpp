@@ -84,6 +84,7 @@ class Builder {
     std::sort(surface_.nodes.begin(), surface_.nodes.end());
     surface_.nodes.erase(std::unique(surface_.nodes.begin(), surface_.nodes.end()),
                          surface_.nodes.end());
+    surface_.first_points = {0, surface_.num_points()};
   }
 
   int Point(const int node) const {

@@ -77,9 +77,12 @@ void Classifier::PushShore(const Shore& shore) {
   std::push_heap(shores_.begin(), shores_.end());
 }
 
-double Classifier::BottleneckGap(const std::vector<EdgeWay>& ways) const {
+double Classifier::BottleneckGap(int cup, const std::vector<EdgeWay>& ways) const {
+  const auto k = static_cast<std::size_t>(cup);
+  const auto begin = static_cast<std::size_t>(surface_->first_points[k]);
+  const auto end = static_cast<std::size_t>(surface_->first_points[k + 1]);
   double widest = -std::numeric_limits<double>::infinity();
-  for (std::size_t a = 0; a < surface_->neighbours.size(); ++a) {
+  for (std::size_t a = begin; a < end; ++a) {
     for (const int neighbour : surface_->neighbours[a]) {
       const auto b = static_cast<std::size_t>(neighbour);
       if (basin_[a] == basin_[b]) continue;
@@ -88,7 +91,7 @@ double Classifier::BottleneckGap(const std::vector<EdgeWay>& ways) const {
   }
   for (const EdgeWay& way : ways) {
     const auto a = static_cast<std::size_t>(way.from), b = static_cast<std::size_t>(way.to);
-    if (basin_[a] == basin_[b]) continue;
+    if (a < begin || a >= end || basin_[a] == basin_[b]) continue;
     widest = std::max(widest, std::min({way.gap, bottleneck_[a], bottleneck_[b]}));
   }
   return widest;
@@ -123,7 +126,10 @@ void Classifier::Classify(const std::vector<double>& phi, double open_gap,
 
   Classification& result = *classification;
   Flood(phi, result.edge_ways);
-  result.bottleneck_gap = BottleneckGap(result.edge_ways);
+  result.bottleneck_gaps.clear();
+  for (int cup = 0; cup < surface_->num_cups(); ++cup) {
+    result.bottleneck_gaps.push_back(BottleneckGap(cup, result.edge_ways));
+  }
 
   open_.resize(num_points);
   for (std::size_t i = 0; i < num_points; ++i) open_[i] = phi[i] > open_gap;
@@ -137,13 +143,14 @@ void Classifier::Classify(const std::vector<double>& phi, double open_gap,
     result.wet[i] = trapped ? keeps_suction : basin_[i] == Basin::kPort;
   }
 
-  const bool joined = result.bottleneck_gap > open_gap;
-  if (joined) inside_.assign(num_points, false);
+  for (std::size_t cup = 0; cup < result.bottleneck_gaps.size(); ++cup) {
+    if (!(result.bottleneck_gaps[cup] > open_gap)) continue;  // port and border are not joined
+    std::fill(inside_.begin() + surface_->first_points[cup],
+              inside_.begin() + surface_->first_points[cup + 1], false);
+  }
   result.zones.resize(num_points);
-  result.zone_counts.fill(0);
   for (std::size_t i = 0; i < num_points; ++i) {
     result.zones[i] = ZoneOf(surface_->neighbours[i], i, outside_, inside_);
-    ++result.zone_counts[static_cast<std::size_t>(result.zones[i])];
   }
 }
 

@@ -355,11 +355,12 @@ void ContactStage::MeasureEnd(const TrialEnd& end, ContactSolution* solution) {
 }
 
 void ContactStage::Report(ContactSolution* solution) const {
-  solution->num_contacts = 0;
+  solution->contact_nodes.clear();
   solution->contact_force = 0.0;
   solution->fold_force = 0.0;
   solution->num_candidates = static_cast<int>(candidates_.size());
   solution->lambda.setZero(x0_.cols());
+  solution->on_objects.setZero(x0_.cols());
   solution->forces_W.setZero(3, x0_.cols());
   solution->objects = pressure_on_;
   Vector3d friction_W = Vector3d::Zero();
@@ -367,10 +368,12 @@ void ContactStage::Report(ContactSolution* solution) const {
     const Contact& contact = candidate.contact;
     const double normal_force = std::max(0.0, candidate.force.x());
     if (contact.num_nodes == 0 || normal_force == 0.0) continue;
-    ++solution->num_contacts;
+    solution->contact_nodes.push_back(contact.nodes[0]);
     for (int k = 0; k < contact.num_nodes; ++k) {
       const auto place = static_cast<std::size_t>(k);
-      solution->lambda(contact.nodes[place]) += std::abs(contact.weights[place]) * normal_force;
+      const double share = std::abs(contact.weights[place]) * normal_force;
+      solution->lambda(contact.nodes[place]) += share;
+      if (contact.object != RigidWorld::kNone) solution->on_objects(contact.nodes[place]) += share;
     }
     Vector3d on_cup_W = normal_force * contact.normal;
     if (contact.friction > 0.0) {

@@ -1,9 +1,13 @@
 #include "vacuum_gripper_sim/core/parameters.h"
 
 #include <cmath>
+#include <cstddef>
+#include <set>
 #include <sstream>
 #include <stdexcept>
 #include <string>
+
+#include "vacuum_gripper_sim/core/rigid_surface.h"
 
 namespace vacuum_gripper_sim {
 namespace {
@@ -29,10 +33,27 @@ void RequireAtLeastOne(const char* name, int value) {
   Require(value >= 1, name, value, "at least 1");
 }
 
+void RequireCups(const std::vector<CupMount>& cups) {
+  if (cups.empty()) throw std::invalid_argument("cups has 0 entries, must have at least one");
+  std::set<std::string> names;
+  for (std::size_t i = 0; i < cups.size(); ++i) {
+    const std::string field = "cups[" + std::to_string(i) + "]";
+    if (!IsRigidMotion(cups[i].X_MC)) {
+      throw std::invalid_argument(field + ".X_MC is not a finite rigid motion, must be one");
+    }
+    if (cups.size() == 1) continue;
+    if (cups[i].name.empty() || !names.insert(cups[i].name).second) {
+      throw std::invalid_argument(field + ".name = '" + cups[i].name +
+                                  "', must be not empty and no other cup's");
+    }
+  }
+}
+
 }  // namespace
 
 void Validate(const SimulatorParameters& p) {
   Require(p.time_step > 0.0 && p.time_step <= 0.1, "time_step", p.time_step, "in (0, 0.1] [s]");
+  RequireCups(p.cups);
   for (int i = 0; i < 3; ++i) {
     Require(std::isfinite(p.gravity(i)), "gravity", p.gravity(i), "finite [m/s^2]");
   }

@@ -32,18 +32,21 @@ double PeakOver(int a, int b, const std::vector<EdgeWay>& ways) {
   return 0.0;
 }
 
-Profile MeridianGaps(const CavitySurface& surface, const std::vector<double>& gap,
+Profile MeridianGaps(const CavitySurface& surface, int cup, const std::vector<double>& gap,
                      const std::vector<EdgeWay>& ways, const Eigen::Matrix3Xd& x_W,
-                     const Eigen::Isometry3d& X_WM) {
-  const Eigen::Isometry3d X_MW = X_WM.inverse();
-  std::vector<double> azimuth;
-  for (const int node : surface.nodes) {
-    const Eigen::Vector3d p_M = X_MW * x_W.col(node);
-    azimuth.push_back(std::atan2(p_M.y(), p_M.x()));
+                     const Eigen::Isometry3d& X_WC) {
+  const auto begin = static_cast<std::size_t>(surface.first_points[static_cast<std::size_t>(cup)]);
+  const auto end =
+      static_cast<std::size_t>(surface.first_points[static_cast<std::size_t>(cup) + 1]);
+  const Eigen::Isometry3d X_CW = X_WC.inverse();
+  std::vector<double> azimuth(surface.nodes.size());
+  for (std::size_t point = begin; point < end; ++point) {
+    const Eigen::Vector3d p_C = X_CW * x_W.col(surface.nodes[point]);
+    azimuth[point] = std::atan2(p_C.y(), p_C.x());
   }
   Profile profile;
   profile.fill(std::numeric_limits<double>::infinity());
-  for (std::size_t a = 0; a < azimuth.size(); ++a) {
+  for (std::size_t a = begin; a < end; ++a) {
     for (const int neighbour : surface.neighbours[a]) {
       const auto b = static_cast<std::size_t>(neighbour);
       const double way = WrapToPi(azimuth[b] - azimuth[a]);
@@ -68,13 +71,13 @@ double WayToClosed(double open, double closed, double open_gap) {
 
 }  // namespace
 
-SealOpening FindSealOpening(const CavitySurface& surface, const std::vector<double>& gap,
+SealOpening FindSealOpening(const CavitySurface& surface, int cup, const std::vector<double>& gap,
                             const Classification& classification, double open_gap,
-                            const Eigen::Matrix3Xd& x_W, const Eigen::Isometry3d& X_WM) {
-  const double bottleneck_gap = classification.bottleneck_gap;
+                            const Eigen::Matrix3Xd& x_W, const Eigen::Isometry3d& X_WC) {
+  const double bottleneck_gap = classification.bottleneck_gaps[static_cast<std::size_t>(cup)];
   if (!(bottleneck_gap > open_gap)) return {};
   if (std::isinf(bottleneck_gap)) return {0.0, kTurn, bottleneck_gap};
-  const Profile profile = MeridianGaps(surface, gap, classification.edge_ways, x_W, X_WM);
+  const Profile profile = MeridianGaps(surface, cup, gap, classification.edge_ways, x_W, X_WC);
   const int widest =
       static_cast<int>(std::max_element(profile.begin(), profile.end()) - profile.begin());
   const auto is_open = [&](int k) { return At(profile, k) > open_gap; };

@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "vacuum_gripper_sim/core/cavity_size.h"
 #include "vacuum_gripper_sim/core/contact_stage.h"
 #include "vacuum_gripper_sim/core/elastic_body.h"
 #include "vacuum_gripper_sim/core/implicit_euler.h"
@@ -29,9 +30,8 @@ std::vector<int> SurfaceNodes(const TetMesh& mesh) {
   return nodes;
 }
 
-SimulatorParameters WithSealGaps(SimulatorParameters parameters, const CavitySurface& cavity,
-                                 const TetMesh& mesh) {
-  parameters.seal = ResolveSealGaps(parameters.seal, LipSagitta(cavity, mesh.nodes));
+SimulatorParameters WithSealGaps(SimulatorParameters parameters, const CupArray& cups) {
+  parameters.seal = ResolveSealGaps(parameters.seal, LipSagitta(cups.cavities, cups.mesh.nodes));
   return parameters;
 }
 
@@ -42,55 +42,24 @@ struct State {
   GripState grip;
 };
 
-/// Volume between the wet surface and its edge: a cone over every wet point's area vector from the
-/// mean position of the points where the wet surface ends, in whose plane the edge lies. [m^3]
-double WetVolume(const CavitySurface& cavity, const std::vector<bool>& wet,
-                 const Eigen::Matrix3Xd& x_W, const Eigen::Matrix3Xd& area_vectors) {
-  Eigen::Vector3d apex = Eigen::Vector3d::Zero();
-  int num_edge_points = 0;
-  for (std::size_t i = 0; i < wet.size(); ++i) {
-    const auto& neighbours = cavity.neighbours[i];
-    const bool on_edge = wet[i] && std::any_of(neighbours.begin(), neighbours.end(), [&](int n) {
-                           return !wet[static_cast<std::size_t>(n)];
-                         });
-    if (!on_edge) continue;
-    apex += x_W.col(cavity.nodes[i]);
-    ++num_edge_points;
-  }
-  if (num_edge_points == 0) return 0.0;
-  apex /= num_edge_points;
-  double volume = 0.0;
-  for (std::size_t i = 0; i < wet.size(); ++i) {
-    if (!wet[i]) continue;
-    volume +=
-        (x_W.col(cavity.nodes[i]) - apex).dot(area_vectors.col(static_cast<Eigen::Index>(i))) / 3.0;
-  }
-  return volume;
+SealStatus StatusOf(const CavityState& cavity, double setpoint) {
+  if (!cavity.sealed) return cavity.lost ? SealStatus::kLost : SealStatus::kOpen;
+  return cavity.pressure == setpoint ? SealStatus::kSealed : SealStatus::kRegulating;
 }
 
 }  // namespace
 
-Eigen::Isometry3d MountFromRest(const TetMesh& mesh) {
-  double top = -std::numeric_limits<double>::infinity();
-  for (const int node : mesh.mount_nodes) top = std::max(top, mesh.nodes(2, node));
-  Eigen::Isometry3d X_MR = Eigen::Isometry3d::Identity();
-  X_MR.linear() = Eigen::Vector3d(1.0, -1.0, -1.0).asDiagonal();
-  X_MR.translation() = Eigen::Vector3d(0.0, 0.0, top);
-  return X_MR;
-}
-
 class Simulator::Implementation {
  public:
-  Implementation(TetMesh mesh, const SimulatorParameters& parameters, const Eigen::Isometry3d& X_WM)
-      : mesh_(std::move(mesh)),
-        cavity_(MakeCavitySurface(mesh_)),
-        parameters_(WithSealGaps(parameters, cavity_, mesh_)),
-        rest_M_(MountFromRest(mesh_) * mesh_.nodes),
-        body_(mesh_, parameters.material),
-        system_(body_, mesh_.mount_nodes),
+  Implementation(const TetMesh& mesh, const SimulatorParameters& parameters,
+                 const Eigen::Isometry3d& X_WM)
+      : cups_(MakeCupArray(mesh, parameters.cups)),
+        parameters_(WithSealGaps(parameters, cups_)),
+        body_(cups_.mesh, parameters.material),
+        system_(body_, cups_.mesh.mount_nodes),
         solver_(parameters.linear_solver, &system_),
-        stage_(mesh_, system_, &solver_, SurfaceNodes(mesh_), parameters.contact),
-        suction_(cavity_, parameters_.seal, parameters.regulator,
+        stage_(cups_.mesh, system_, &solver_, SurfaceNodes(cups_.mesh), parameters.contact),
+        suction_(cups_.cavities, parameters_.seal, parameters.regulator,
                  parameters.material.young_modulus) {
     Reset(X_WM);
   }
@@ -105,8 +74,7 @@ class Simulator::Implementation {
   Implementation& operator=(const Implementation&) = delete;
   ~Implementation() = default;
 
-  TetMesh mesh_;
-  CavitySurface cavity_;
+  CupArray cups_;
   SimulatorParameters parameters_;
   RigidWorld world_;
   StepResult result_;
@@ -115,13 +83,11 @@ class Simulator::Implementation {
   void FindClampedVelocityChange(const Eigen::Isometry3d& X_WM);
   bool Advance(const Command& command);
   std::string DescribeMisplacement() const;
-  void ReportWrench();
-  void ReportCavity();
-  void ReportOpening();
-  void ReportCavitySize();
+  void ReportWrenches();
+  void ReportContacts();
+  void ReportCups();
   void ReportObjects(const std::vector<ObjectLoad>& loads);
 
-  Eigen::Matrix3Xd rest_M_;  // rest positions in the mount frame [m]
   ElasticBody body_;
   ImplicitEuler system_;
   LinearSolver solver_;
@@ -153,9 +119,10 @@ void Simulator::Implementation::SetObjectPose(int index, const Eigen::Isometry3d
 }
 
 void Simulator::Implementation::Reset(const Eigen::Isometry3d& X_WM) {
-  state_.x_W = X_WM * rest_M_;
-  state_.v_W = Eigen::Matrix3Xd::Zero(3, rest_M_.cols());
+  state_.x_W = X_WM * cups_.rest_M;
+  state_.v_W = Eigen::Matrix3Xd::Zero(3, cups_.rest_M.cols());
   state_.grip = GripState();
+  state_.grip.cups.resize(cups_.mounts.size());
   stage_.ForgetWorld();
 
   const double time = result_.time;
@@ -163,13 +130,10 @@ void Simulator::Implementation::Reset(const Eigen::Isometry3d& X_WM) {
   result_.time = time;
   result_.X_WM = X_WM;
   result_.x_W = state_.x_W;
-  const std::vector<double> distance =
-      NearestDistances(world_.surfaces(), cavity_.nodes, state_.x_W);
-  result_.gap = distance;
-  result_.classification = Classify(cavity_, distance, *parameters_.seal.open_gap);
-  result_.bottleneck_gap = result_.classification.bottleneck_gap;
-  ReportOpening();
-  ReportCavitySize();
+  result_.gap = NearestDistances(world_.surfaces(), cups_.cavities.nodes, state_.x_W);
+  result_.classification = Classify(cups_.cavities, result_.gap, *parameters_.seal.open_gap);
+  result_.cups.assign(cups_.mounts.size(), CupResult());
+  ReportCups();
   ReportObjects(std::vector<ObjectLoad>(world_.objects().size()));
 }
 
@@ -179,7 +143,7 @@ void Simulator::Implementation::FindClampedVelocityChange(const Eigen::Isometry3
   dv_c_.resize(3, static_cast<Eigen::Index>(clamped.size()));
   for (std::size_t i = 0; i < clamped.size(); ++i) {
     const int node = clamped[i];
-    const Eigen::Vector3d target_W = X_WM * rest_M_.col(node);
+    const Eigen::Vector3d target_W = X_WM * cups_.rest_M.col(node);
     dv_c_.col(static_cast<Eigen::Index>(i)) =
         (target_W - state_.x_W.col(node)) / parameters_.time_step - state_.v_W.col(node);
   }
@@ -204,7 +168,7 @@ void Simulator::Implementation::Step(const Command& command) {
 
 /// What was put where no motion of a step can answer it; empty if nothing was.
 std::string Simulator::Implementation::DescribeMisplacement() const {
-  const std::string jump = DescribeJump(world_, cavity_.nodes, state_.x_W);
+  const std::string jump = DescribeJump(world_, cups_.cavities.nodes, state_.x_W);
   return jump.empty() && free_ones_placed_ ? DescribeOverlap(world_) : jump;
 }
 
@@ -274,57 +238,91 @@ bool Simulator::Implementation::Advance(const Command& command) {
   const Stopwatch stopwatch(&timings->correction);
   result_.X_WM = command.X_WM;
   result_.setpoint = command.pressure_setpoint;
-  ReportWrench();
-  ReportCavity();
+  ReportWrenches();
+  ReportContacts();
+  ReportCups();
   ReportObjects(contact.objects);
   return true;
 }
 
-/// Force of the cup on its mount: what holds the clamped nodes, turned round. See ImplicitEuler.
-void Simulator::Implementation::ReportWrench() {
+/// Forces of the cups on their mounts: what holds the clamped nodes, turned round. See
+/// ImplicitEuler.
+void Simulator::Implementation::ReportWrenches() {
   const Eigen::Matrix3Xd& reaction = system_.ClampedReaction(solution_.contact.dv.cup, dv_c_);
-  Eigen::Vector3d force_W = Eigen::Vector3d::Zero();
-  Eigen::Vector3d torque_W = Eigen::Vector3d::Zero();
+  const auto num_cups = cups_.mounts.size();
+  std::vector<Eigen::Vector3d> force_W(num_cups, Eigen::Vector3d::Zero());
+  std::vector<Eigen::Vector3d> torque_W(num_cups, Eigen::Vector3d::Zero());  // about the mount
+  const Eigen::Vector3d origin_W = result_.X_WM.translation();
   for (Eigen::Index i = 0; i < reaction.cols(); ++i) {
     const int node = system_.clamped_nodes()[static_cast<std::size_t>(i)];
     // Pressure loads clamped rows too, and so do contacts with faces that have clamped corners.
     const Eigen::Vector3d on_mount_W =
         solution_.load.col(node) + solution_.contact.forces_W.col(node) - reaction.col(i);
-    force_W += on_mount_W;
-    torque_W += (state_.x_W.col(node) - result_.X_WM.translation()).cross(on_mount_W);
+    const auto cup = static_cast<std::size_t>(cups_.CupOfNode(node));
+    force_W[cup] += on_mount_W;
+    torque_W[cup] += (state_.x_W.col(node) - origin_W).cross(on_mount_W);
+  }
+  Eigen::Vector3d sum_W = Eigen::Vector3d::Zero(), torque_sum_W = Eigen::Vector3d::Zero();
+  for (std::size_t cup = 0; cup < num_cups; ++cup) {
+    CupResult& result = result_.cups[cup];
+    result.X_WC = result_.X_WM * cups_.mounts[cup].X_MC;
+    const Eigen::Matrix3d R_CW = result.X_WC.linear().transpose();
+    result.force_C = R_CW * force_W[cup];
+    result.torque_C =
+        R_CW * (torque_W[cup] - (result.X_WC.translation() - origin_W).cross(force_W[cup]));
+    sum_W += force_W[cup];
+    torque_sum_W += torque_W[cup];
   }
   const Eigen::Matrix3d R_MW = result_.X_WM.linear().transpose();
-  result_.force_M = R_MW * force_W;
-  result_.torque_M = R_MW * torque_W;
+  result_.force_M = R_MW * sum_W;
+  result_.torque_M = R_MW * torque_sum_W;
 }
 
-void Simulator::Implementation::ReportCavity() {
+void Simulator::Implementation::ReportContacts() {
   const ContactSolution& contact = solution_.contact;
-  const GripState& grip = state_.grip;
-  result_.gauge_pressure = grip.pressure;
-  if (grip.sealed) {
-    result_.status =
-        grip.pressure == result_.setpoint ? SealStatus::kSealed : SealStatus::kRegulating;
-  } else {
-    result_.status = grip.lost ? SealStatus::kLost : SealStatus::kOpen;
-  }
-
   result_.x_W = state_.x_W;
   result_.classification = solution_.classification;
-  result_.bottleneck_gap = solution_.classification.bottleneck_gap;
-  for (std::size_t i = 0; i < cavity_.nodes.size(); ++i) {
-    result_.gap[i] = contact.distance[static_cast<std::size_t>(cavity_.nodes[i])];
+  for (std::size_t i = 0; i < cups_.cavities.nodes.size(); ++i) {
+    result_.gap[i] = contact.distance[static_cast<std::size_t>(cups_.cavities.nodes[i])];
   }
-  ReportOpening();
-  ReportCavitySize();
-  result_.contact_force = contact.contact_force;
   result_.fold_force = contact.fold_force;
   result_.friction_force = contact.friction_force;
-  result_.num_contacts = static_cast<std::uint32_t>(contact.num_contacts);
   result_.num_candidates = static_cast<std::uint32_t>(contact.num_candidates);
   result_.max_penetration = contact.max_penetration;
   result_.linear_iterations = solver_.iterations();
   result_.factorizations = solver_.factorizations();
+
+  for (std::size_t cup = 0; cup < result_.cups.size(); ++cup) {
+    CupResult& result = result_.cups[cup];
+    const CavityState& cavity = state_.grip.cups[cup];
+    result.status = StatusOf(cavity, result_.setpoint);
+    result.gauge_pressure = cavity.pressure;
+    result.contact_force =
+        contact.on_objects.segment(cups_.FirstNode(cup), cups_.nodes_per_cup).sum();
+    result.num_contacts = 0;
+  }
+  for (const int node : contact.contact_nodes) {
+    ++result_.cups[static_cast<std::size_t>(cups_.CupOfNode(node))].num_contacts;
+  }
+}
+
+/// What the shape of the cups says, and the gripper's sums.
+void Simulator::Implementation::ReportCups() {
+  PointAreaVectors(cups_.cavities, state_.x_W, &area_vectors_);
+  for (std::size_t cup = 0; cup < result_.cups.size(); ++cup) {
+    CupResult& result = result_.cups[cup];
+    const int k = static_cast<int>(cup);
+    result.X_WC = result_.X_WM * cups_.mounts[cup].X_MC;
+    result.bottleneck_gap = result_.classification.bottleneck_gaps[cup];
+    result.opening = FindSealOpening(cups_.cavities, k, result_.gap, result_.classification,
+                                     *parameters_.seal.open_gap, state_.x_W, result.X_WC);
+    const CavitySize size =
+        SizeOfCavity(cups_.cavities, k, result_.classification.wet, state_.x_W, area_vectors_);
+    result.cavity_area = std::abs(size.area_W.dot(result.X_WC.linear().col(2)));
+    result.cavity_volume = size.volume;
+    result.zone_counts = CountZones(cups_.cavities, k, result_.classification.zones);
+  }
+  static_cast<GripSummary&>(result_) = SumOf(result_.cups);
 }
 
 void Simulator::Implementation::ReportObjects(const std::vector<ObjectLoad>& loads) {
@@ -343,30 +341,13 @@ void Simulator::Implementation::ReportObjects(const std::vector<ObjectLoad>& loa
   }
 }
 
-void Simulator::Implementation::ReportOpening() {
-  result_.opening = FindSealOpening(cavity_, result_.gap, result_.classification,
-                                    *parameters_.seal.open_gap, state_.x_W, result_.X_WM);
-}
-
-/// Area and volume of what the pressure acts on if the cavity is sealed.
-void Simulator::Implementation::ReportCavitySize() {
-  const std::vector<bool>& wet = result_.classification.wet;
-  PointAreaVectors(cavity_, state_.x_W, &area_vectors_);
-  Eigen::Vector3d wet_area_W = Eigen::Vector3d::Zero();
-  for (std::size_t i = 0; i < wet.size(); ++i) {
-    if (wet[i]) wet_area_W += area_vectors_.col(static_cast<Eigen::Index>(i));
-  }
-  result_.cavity_area = std::abs(wet_area_W.dot(result_.X_WM.linear().col(2)));
-  result_.cavity_volume = WetVolume(cavity_, wet, state_.x_W, area_vectors_);
-}
-
-Simulator::Simulator(TetMesh mesh, const SimulatorParameters& parameters,
+Simulator::Simulator(const TetMesh& mesh, const SimulatorParameters& parameters,
                      const Eigen::Isometry3d& X_WM) {
   Validate(parameters);
   if (!IsRigidMotion(X_WM)) {
     throw std::invalid_argument("the mount's initial pose is not a finite rigid motion");
   }
-  implementation_ = std::make_unique<Implementation>(std::move(mesh), parameters, X_WM);
+  implementation_ = std::make_unique<Implementation>(mesh, parameters, X_WM);
 }
 
 Simulator::~Simulator() = default;
@@ -398,8 +379,9 @@ void Simulator::Reset(const Eigen::Isometry3d& X_WM) {
 }
 
 const StepResult& Simulator::result() const { return implementation_->result_; }
-const TetMesh& Simulator::mesh() const { return implementation_->mesh_; }
-const CavitySurface& Simulator::cavity() const { return implementation_->cavity_; }
+const CupArray& Simulator::cups() const { return implementation_->cups_; }
+const TetMesh& Simulator::mesh() const { return implementation_->cups_.mesh; }
+const CavitySurface& Simulator::cavity() const { return implementation_->cups_.cavities; }
 const SimulatorParameters& Simulator::parameters() const { return implementation_->parameters_; }
 
 }  // namespace vacuum_gripper_sim

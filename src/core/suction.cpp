@@ -38,66 +38,107 @@ void Suction::ClassifyEnd(const ContactStage& stage, const ContactSolution& cont
   classifier_.Classify(phi_, *seal_.open_gap, was_wet, classification);
 }
 
-bool Suction::SolveWith(const std::vector<bool>& wet, double pressure, ContactStage* stage,
-                        SuctionSolution* solution, StepTimings* timings) {
+bool Suction::SolveOnce(ContactStage* stage, SuctionSolution* solution, StepTimings* timings) {
   solution->load.setZero(3, num_nodes_);
-  if (pressure != 0.0) {
-    for (std::size_t i = 0; i < wet.size(); ++i) {
-      if (!wet[i]) continue;
-      solution->load.col(cavity_->nodes[i]) +=
-          pressure * area_vectors_.col(static_cast<Eigen::Index>(i));
+  was_wet_.assign(cavity_->nodes.size(), false);
+  for (std::size_t cup = 0; cup < pressures_.size(); ++cup) {
+    if (pressures_[cup] == 0.0) continue;
+    for (int point = cavity_->first_points[cup]; point < cavity_->first_points[cup + 1]; ++point) {
+      const auto i = static_cast<std::size_t>(point);
+      if (!wet_[i]) continue;
+      was_wet_[i] = true;
+      solution->load.col(cavity_->nodes[i]) += pressures_[cup] * area_vectors_.col(point);
     }
   }
   if (!stage->Solve(solution->load, &solution->contact, timings)) return false;
   const Stopwatch stopwatch(&timings->classification);
-  const std::vector<bool> never;
-  ClassifyEnd(*stage, solution->contact, pressure != 0.0 ? wet : never, &solution->classification);
+  ClassifyEnd(*stage, solution->contact, was_wet_, &solution->classification);
   return true;
 }
 
-bool Suction::HoldSeal(double pressure, ContactStage* stage, GripState* state,
-                       SuctionSolution* solution, StepTimings* timings) {
-  std::vector<std::vector<bool>> seen;
-  wet_ = state->classification.wet;
-  for (int round = 1;; ++round) {
-    if (!SolveWith(wet_, pressure, stage, solution, timings)) return false;
-    if (round == seal_.max_rounds) break;
-    seen.push_back(wet_);
-    wet_ = solution->classification.wet;
-    if (std::find(seen.begin(), seen.end(), wet_) != seen.end()) break;  // fixed point or cycle
+void Suction::SetWet(const std::vector<int>& cups, const Classification& classification) {
+  for (const int cup : cups) {
+    const auto begin = cavity_->first_points[static_cast<std::size_t>(cup)];
+    const auto end = cavity_->first_points[static_cast<std::size_t>(cup) + 1];
+    std::copy(classification.wet.begin() + begin, classification.wet.begin() + end,
+              wet_.begin() + begin);
   }
-  if (solution->classification.bottleneck_gap <= *seal_.open_gap) {
-    state->pressure = pressure;
-    return true;
-  }
-  state->sealed = false;
-  state->lost = true;
-  state->pressure = 0.0;
-  return SolveWith({}, 0.0, stage, solution, timings);
 }
 
-bool Suction::TryToSeal(double pressure, ContactStage* stage, GripState* state,
-                        SuctionSolution* solution, StepTimings* timings) {
-  if (!SolveWith({}, 0.0, stage, solution, timings)) return false;  // (1)
-  if (solution->classification.bottleneck_gap >= *seal_.close_gap) return true;
+bool Suction::ReleaseOpen(const Classification& classification, std::vector<int>* cups) {
+  const auto is_open = [&](int cup) {
+    return classification.bottleneck_gaps[static_cast<std::size_t>(cup)] > *seal_.open_gap;
+  };
+  for (const int cup : *cups) {
+    if (is_open(cup)) pressures_[static_cast<std::size_t>(cup)] = 0.0;
+  }
+  const auto rest = std::remove_if(cups->begin(), cups->end(), is_open);
+  const bool some_are = rest != cups->end();
+  cups->erase(rest, cups->end());
+  return some_are;
+}
 
-  wet_ = solution->classification.wet;
-  for (int i = 1; i <= seal_.ramp_increments; ++i) {  // (2)
-    if (!SolveWith(wet_, pressure * i / seal_.ramp_increments, stage, solution, timings)) {
-      return false;
+/// Solves with the pressures of the cups that have a seal; without any, that is the stage (1).
+bool Suction::HoldSeals(ContactStage* stage, GripState* state, SuctionSolution* solution,
+                        StepTimings* timings) {
+  std::vector<int> holding;
+  for (std::size_t cup = 0; cup < pressures_.size(); ++cup) {
+    if (pressures_[cup] != 0.0) holding.push_back(static_cast<int>(cup));
+  }
+  do {
+    std::vector<std::vector<bool>> seen;
+    SetWet(holding, state->classification);
+    for (int round = 1;; ++round) {
+      if (!SolveOnce(stage, solution, timings)) return false;
+      if (round == seal_.max_rounds || holding.empty()) break;
+      seen.push_back(wet_);
+      SetWet(holding, solution->classification);
+      if (std::find(seen.begin(), seen.end(), wet_) != seen.end()) break;  // fixed point or cycle
     }
-    wet_ = solution->classification.wet;
-    if (solution->classification.bottleneck_gap > *seal_.open_gap) {
-      return SolveWith({}, 0.0, stage, solution, timings);  // suction opens it: no seal yet
+  } while (ReleaseOpen(solution->classification, &holding));
+  for (std::size_t cup = 0; cup < pressures_.size(); ++cup) {
+    CavityState& cavity = state->cups[cup];
+    if (cavity.sealed && pressures_[cup] == 0.0) {
+      cavity.sealed = false;
+      cavity.lost = true;
+    }
+    cavity.pressure = pressures_[cup];
+  }
+  return true;
+}
+
+/// @param pressure That a cup with a new seal is to have. [Pa]
+bool Suction::TryToSeal(const std::vector<double>& pressure, ContactStage* stage, GripState* state,
+                        SuctionSolution* solution, StepTimings* timings) {
+  std::vector<int> trying;
+  for (std::size_t cup = 0; cup < pressure.size(); ++cup) {
+    if (pressure[cup] == 0.0) continue;
+    if (solution->classification.bottleneck_gaps[cup] >= *seal_.close_gap) continue;
+    trying.push_back(static_cast<int>(cup));
+  }
+  SetWet(trying, solution->classification);
+  for (int i = 1; i <= seal_.ramp_increments && !trying.empty(); ++i) {  // (2)
+    for (const int cup : trying) {
+      const auto k = static_cast<std::size_t>(cup);
+      pressures_[k] = pressure[k] * i / seal_.ramp_increments;
+    }
+    if (!SolveOnce(stage, solution, timings)) return false;
+    SetWet(trying, solution->classification);
+    if (ReleaseOpen(solution->classification, &trying) && trying.empty()) {
+      return SolveOnce(stage, solution, timings);  // suction opens them: no seal yet
     }
   }
-  if (!SolveWith(wet_, pressure, stage, solution, timings)) return false;  // (3)
-  if (solution->classification.bottleneck_gap > *seal_.open_gap) {
-    return SolveWith({}, 0.0, stage, solution, timings);
+  if (trying.empty()) return true;
+  for (const int cup : trying) {
+    pressures_[static_cast<std::size_t>(cup)] = pressure[static_cast<std::size_t>(cup)];
   }
-  state->sealed = true;
-  state->lost = false;
-  state->pressure = pressure;
+  do {  // (3)
+    if (!SolveOnce(stage, solution, timings)) return false;
+  } while (ReleaseOpen(solution->classification, &trying));
+  for (const int cup : trying) {
+    const auto k = static_cast<std::size_t>(cup);
+    state->cups[k] = {true, false, pressures_[k]};
+  }
   return true;
 }
 
@@ -105,24 +146,26 @@ bool Suction::Solve(const Eigen::Matrix3Xd& x_W, double setpoint, double h, Cont
                     GripState* state, SuctionSolution* solution, StepTimings* timings) {
   num_nodes_ = x_W.cols();
   PointAreaVectors(*cavity_, x_W, &area_vectors_);
+  wet_.resize(cavity_->nodes.size());
 
   const double largest_change = regulator_.ramp_rate * h;
-  const double change = std::clamp(setpoint - state->pressure, -largest_change, largest_change);
-  // Not pressure + change where the set-point is in reach: it is to be met exactly.
-  const double pressure =
-      std::abs(setpoint - state->pressure) <= largest_change ? setpoint : state->pressure + change;
-
-  bool solved = false;
-  if (state->sealed && pressure != 0.0) {
-    solved = HoldSeal(pressure, stage, state, solution, timings);
-  } else if (pressure != 0.0) {
-    solved = TryToSeal(pressure, stage, state, solution, timings);
-  } else {
-    state->sealed = false;
-    state->pressure = 0.0;
-    solved = SolveWith({}, 0.0, stage, solution, timings);
+  pressures_.assign(state->cups.size(), 0.0);
+  std::vector<double> of_new_seals(state->cups.size(), 0.0);
+  for (std::size_t cup = 0; cup < state->cups.size(); ++cup) {
+    CavityState& cavity = state->cups[cup];
+    const double change = std::clamp(setpoint - cavity.pressure, -largest_change, largest_change);
+    // Not pressure + change where the set-point is in reach: it is to be met exactly.
+    const double pressure = std::abs(setpoint - cavity.pressure) <= largest_change
+                                ? setpoint
+                                : cavity.pressure + change;
+    if (pressure == 0.0) cavity.sealed = false;
+    (cavity.sealed ? pressures_ : of_new_seals)[cup] = pressure;
   }
-  if (setpoint == 0.0) state->lost = false;  // venting may open the lip: that is no loss
+  const bool solved = HoldSeals(stage, state, solution, timings) &&
+                      TryToSeal(of_new_seals, stage, state, solution, timings);
+  for (CavityState& cavity : state->cups) {
+    if (setpoint == 0.0) cavity.lost = false;  // venting may open the lip: that is no loss
+  }
   state->classification = solution->classification;
   return solved;
 }

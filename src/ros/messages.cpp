@@ -60,8 +60,7 @@ SealState ToSealState(const StepResult& result, const std_msgs::Header& header) 
   message.cavity_volume = result.cavity_volume;
   message.contact_force = result.contact_force;
   message.num_contacts = result.num_contacts;
-  std::copy(result.classification.zone_counts.begin(), result.classification.zone_counts.end(),
-            message.zone_counts.begin());
+  std::copy(result.zone_counts.begin(), result.zone_counts.end(), message.zone_counts.begin());
   message.bottleneck_gap = result.bottleneck_gap;
   message.opening_azimuth = result.opening.azimuth;
   message.opening_width = result.opening.width;

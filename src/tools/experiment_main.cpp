@@ -116,7 +116,7 @@ class Outputs {
   void Finish(const Scenario& scenario, const ExperimentOutcome& outcome,
               const Simulator& simulator) {
     WriteSummary(outcome.summary, scenario.name, &summary_);
-    WriteVtu(simulator.mesh(), simulator.cavity(), simulator.result(), &grid_);
+    WriteVtu(simulator.cups(), simulator.result(), &grid_);
     for (std::ofstream* file : {&timeseries_, &summary_, &grid_, &objects_}) {
       if (!file->is_open()) continue;  // no objects.csv
       file->close();

@@ -46,7 +46,7 @@ TEST(TimeseriesWriter, RowMatchesHeader) {
   result.gauge_pressure = -1234567.25;
   result.num_contacts = 42;
   result.timings.total = 0.0025;
-  result.classification.zone_counts = {1, 2, 3, 4, 5};
+  result.zone_counts = {1, 2, 3, 4, 5};
   writer.Write(result);
 
   std::istringstream lines(text.str());
@@ -133,20 +133,20 @@ TEST(ObjectsWriter, ARowForEveryObject) {
 }
 
 TEST(VtuWriter, WritesPointsCellsAndFields) {
-  const TetMesh mesh = OneTet();
-  CavitySurface cavity;
-  cavity.nodes = {0, 1, 2};
+  CupArray cups;
+  cups.mesh = OneTet();
+  cups.cavities.nodes = {0, 1, 2};
+  cups.rest_M = MountFromRest(cups.mesh) * cups.mesh.nodes;
   StepResult result;
   result.X_WM.translation() = Eigen::Vector3d(1.0, 2.0, 3.0);
-  const Eigen::Isometry3d X_WR = result.X_WM * MountFromRest(mesh);
-  result.x_W = (X_WR.linear() * mesh.nodes).colwise() + X_WR.translation();
+  result.x_W = result.X_WM * cups.rest_M;
   const Eigen::Vector3d moved(0.001, -0.002, 0.003);
   result.x_W.col(1) += moved;
   result.gap = {0.5, -1e-9, std::numeric_limits<double>::infinity()};
   result.classification.zones = {Zone::kStrictlyOutside, Zone::kInActiveContact,
                                  Zone::kStrictlyInside};
   std::ostringstream text;
-  WriteVtu(mesh, cavity, result, &text);
+  WriteVtu(cups, result, &text);
   const std::string xml = text.str();
   EXPECT_TRUE(Contains(xml, "NumberOfPoints=\"4\" NumberOfCells=\"1\""));
   EXPECT_EQ(Numbers(xml, "connectivity"), (std::vector<double>{0, 1, 2, 3}));
@@ -170,7 +170,9 @@ TEST(VtuWriter, RefusesAResultOfAnotherMesh) {
   StepResult result;
   result.x_W.resize(3, 7);
   std::ostringstream text;
-  EXPECT_THROW(WriteVtu(OneTet(), CavitySurface{}, result, &text), std::invalid_argument);
+  CupArray cups;
+  cups.mesh = OneTet();
+  EXPECT_THROW(WriteVtu(cups, result, &text), std::invalid_argument);
 }
 
 }  // namespace

@@ -3,8 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <set>
+
+#include "vacuum_gripper_sim/core/cavity_size.h"
 
 namespace vacuum_gripper_sim {
 namespace {
@@ -38,6 +41,7 @@ CavitySurface MakeDisc() {
   for (const auto& set : sets) surface.neighbours.emplace_back(set.begin(), set.end());
   surface.port = {0};
   for (int sector = 0; sector < kSectors; ++sector) surface.border.push_back(at(kRings, sector));
+  surface.first_points = {0, surface.num_points()};
   return surface;
 }
 
@@ -64,21 +68,21 @@ class ClassifierTest : public testing::Test {
 
 TEST_F(ClassifierTest, InTheAirAllIsOutside) {
   const Classification result = Classify(surface_, phi_, kOpenGap);
-  EXPECT_EQ(result.bottleneck_gap, kFar);
-  EXPECT_EQ(result.zone_counts[0], surface_.nodes.size());
+  EXPECT_EQ(result.bottleneck_gaps[0], kFar);
+  EXPECT_EQ(CountZones(surface_, 0, result.zones)[0], surface_.nodes.size());
 }
 
 // One ring of contact points: purple from outside; nothing is left to be blue, the paper's order.
 TEST_F(ClassifierTest, ClosedRingSeparatesInsideFromOutside) {
   SetRing(&phi_, 4, kLoaded);
   const Classification result = Classify(surface_, phi_, kOpenGap);
-  EXPECT_EQ(result.bottleneck_gap, kLoaded);
+  EXPECT_EQ(result.bottleneck_gaps[0], kLoaded);
   EXPECT_EQ(ZoneAt(result, 5, 0), Zone::kStrictlyOutside);
   EXPECT_EQ(ZoneAt(result, 4, 0), Zone::kOuterBorder);
   EXPECT_EQ(ZoneAt(result, 3, 0), Zone::kStrictlyInside);
   EXPECT_EQ(result.zones[0], Zone::kStrictlyInside);
   const std::array<std::uint32_t, kNumZones> counts{2 * kSectors, kSectors, 0, 0, 1 + 3 * kSectors};
-  EXPECT_EQ(result.zone_counts, counts);
+  EXPECT_EQ(CountZones(surface_, 0, result.zones), counts);
 }
 
 // Three rings wide: purple, red and blue, one ring each; the watershed runs along the most loaded.
@@ -90,7 +94,7 @@ TEST_F(ClassifierTest, WideRingHasBordersOnBothSides) {
   EXPECT_EQ(ZoneAt(result, 5, 2), Zone::kOuterBorder);
   EXPECT_EQ(ZoneAt(result, 4, 2), Zone::kInActiveContact);
   EXPECT_EQ(ZoneAt(result, 3, 2), Zone::kInnerBorder);
-  EXPECT_DOUBLE_EQ(result.bottleneck_gap, 5.0 * kLoaded);
+  EXPECT_DOUBLE_EQ(result.bottleneck_gaps[0], 5.0 * kLoaded);
   EXPECT_TRUE(result.wet[static_cast<std::size_t>(Point(3, 2))]);
   EXPECT_FALSE(result.wet[static_cast<std::size_t>(Point(5, 2))]);
 }
@@ -101,8 +105,9 @@ TEST_F(ClassifierTest, RingWithAGapOfOnePointLeaks) {
   const double gap = 3e-4;
   phi_[static_cast<std::size_t>(Point(4, 7))] = gap;
   const Classification result = Classify(surface_, phi_, kOpenGap);
-  EXPECT_EQ(result.bottleneck_gap, gap);
-  EXPECT_EQ(result.zone_counts[static_cast<std::size_t>(Zone::kStrictlyInside)], 0U);
+  EXPECT_EQ(result.bottleneck_gaps[0], gap);
+  EXPECT_EQ(CountZones(surface_, 0, result.zones)[static_cast<std::size_t>(Zone::kStrictlyInside)],
+            0U);
   EXPECT_EQ(result.zones[0], Zone::kStrictlyOutside);
   EXPECT_EQ(ZoneAt(result, 4, 0), Zone::kOuterBorder);
 }
@@ -114,11 +119,12 @@ TEST_F(ClassifierTest, RingWithAHoleBetweenItsPointsLeaks) {
   const double gap = 3e-4;
   const EdgeWay way{Point(4, 7), Point(4, 8), Point(3, 8), Point(5, 7), gap};
   const Classification result = Classify(surface_, phi_, kOpenGap, {}, {way});
-  EXPECT_EQ(result.bottleneck_gap, gap);
-  EXPECT_EQ(result.zone_counts[static_cast<std::size_t>(Zone::kStrictlyInside)], 0U);
+  EXPECT_EQ(result.bottleneck_gaps[0], gap);
+  EXPECT_EQ(CountZones(surface_, 0, result.zones)[static_cast<std::size_t>(Zone::kStrictlyInside)],
+            0U);
   EXPECT_EQ(result.zones[0], Zone::kStrictlyOutside);
   ASSERT_EQ(result.edge_ways.size(), 1U);
-  EXPECT_EQ(Classify(surface_, phi_, kOpenGap).bottleneck_gap, kLoaded);
+  EXPECT_EQ(Classify(surface_, phi_, kOpenGap).bottleneck_gaps[0], kLoaded);
 }
 
 // The same gap below the tolerance: the zones show a seal, and the bottleneck says how wide it is.
@@ -126,7 +132,7 @@ TEST_F(ClassifierTest, GapBelowTheToleranceSeals) {
   SetRing(&phi_, 4, kLoaded);
   phi_[static_cast<std::size_t>(Point(4, 7))] = 0.5 * kOpenGap;
   const Classification result = Classify(surface_, phi_, kOpenGap);
-  EXPECT_EQ(result.bottleneck_gap, 0.5 * kOpenGap);
+  EXPECT_EQ(result.bottleneck_gaps[0], 0.5 * kOpenGap);
   EXPECT_EQ(result.zones[0], Zone::kStrictlyInside);
   EXPECT_TRUE(result.wet[0]);
 }
@@ -135,8 +141,9 @@ TEST_F(ClassifierTest, GapBelowTheToleranceSeals) {
 TEST_F(ClassifierTest, RimInContactSeals) {
   SetRing(&phi_, kRings, kLoaded);
   const Classification result = Classify(surface_, phi_, kOpenGap);
-  EXPECT_EQ(result.bottleneck_gap, kLoaded);
-  EXPECT_EQ(result.zone_counts[static_cast<std::size_t>(Zone::kStrictlyOutside)], 0U);
+  EXPECT_EQ(result.bottleneck_gaps[0], kLoaded);
+  EXPECT_EQ(CountZones(surface_, 0, result.zones)[static_cast<std::size_t>(Zone::kStrictlyOutside)],
+            0U);
   EXPECT_EQ(result.zones[0], Zone::kStrictlyInside);
   EXPECT_EQ(ZoneAt(result, kRings, 3), Zone::kInnerBorder);
 }
@@ -145,8 +152,8 @@ TEST_F(ClassifierTest, RimInContactSeals) {
 TEST_F(ClassifierTest, FullyCollapsedCupIsAirtight) {
   std::fill(phi_.begin(), phi_.end(), kLoaded);
   const Classification result = Classify(surface_, phi_, kOpenGap);
-  EXPECT_LT(result.bottleneck_gap, 0.0);
-  EXPECT_EQ(result.zone_counts[static_cast<std::size_t>(Zone::kInActiveContact)],
+  EXPECT_LT(result.bottleneck_gaps[0], 0.0);
+  EXPECT_EQ(CountZones(surface_, 0, result.zones)[static_cast<std::size_t>(Zone::kInActiveContact)],
             surface_.nodes.size());
 }
 
@@ -158,7 +165,7 @@ TEST_F(ClassifierTest, TrappedPocketKeepsItsAir) {
   EXPECT_EQ(ZoneAt(vented, 4, 0), Zone::kInActiveContact);
   EXPECT_FALSE(vented.wet[static_cast<std::size_t>(Point(4, 0))]);
   EXPECT_TRUE(vented.wet[static_cast<std::size_t>(Point(2, 0))]);
-  EXPECT_DOUBLE_EQ(vented.bottleneck_gap, 2.0 * kLoaded);
+  EXPECT_DOUBLE_EQ(vented.bottleneck_gaps[0], 2.0 * kLoaded);
 
   const std::vector<bool> was_wet(surface_.nodes.size(), true);
   EXPECT_TRUE(
@@ -170,7 +177,7 @@ TEST_F(ClassifierTest, PortInContactClosesTheCavity) {
   phi_[0] = kLoaded;
   SetRing(&phi_, 5, kLoaded);
   const Classification result = Classify(surface_, phi_, kOpenGap);
-  EXPECT_LT(result.bottleneck_gap, 0.0);
+  EXPECT_LT(result.bottleneck_gaps[0], 0.0);
   EXPECT_FALSE(result.wet[static_cast<std::size_t>(Point(2, 0))]);
 }
 
@@ -181,7 +188,7 @@ TEST_F(ClassifierTest, BottleneckIsTheWidestOfTheNarrowest) {
   phi_[static_cast<std::size_t>(Point(3, 1))] = 9e-4;
   phi_[static_cast<std::size_t>(Point(5, 4))] = 3e-4;
   phi_[static_cast<std::size_t>(Point(5, 9))] = 2e-4;
-  EXPECT_EQ(Classify(surface_, phi_, kOpenGap).bottleneck_gap, 3e-4);
+  EXPECT_EQ(Classify(surface_, phi_, kOpenGap).bottleneck_gaps[0], 3e-4);
 }
 
 // Against brute force: the largest level above which port and border are joined.
@@ -209,7 +216,7 @@ TEST_F(ClassifierTest, BottleneckAgreesWithBruteForce) {
     std::vector<double> levels = phi_;
     std::sort(levels.rbegin(), levels.rend());
     const double expected = *std::find_if(levels.begin(), levels.end(), joined_above);
-    EXPECT_EQ(Classify(surface_, phi_, kOpenGap).bottleneck_gap, expected);
+    EXPECT_EQ(Classify(surface_, phi_, kOpenGap).bottleneck_gaps[0], expected);
   }
 }
 

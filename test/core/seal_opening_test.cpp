@@ -35,7 +35,7 @@ class SealOpeningTest : public testing::TestWithParam<const char*> {
     std::vector<double> phi;
     for (const int node : surface_.nodes) phi.push_back(gap(x_M.col(node)));
     const Classification classification = Classify(surface_, phi, kOpenGap);
-    return FindSealOpening(surface_, phi, classification, kOpenGap, X_WM * x_M, X_WM);
+    return FindSealOpening(surface_, 0, phi, classification, kOpenGap, X_WM * x_M, X_WM);
   }
 
   const TetMesh mesh_ =

@@ -2,13 +2,12 @@
 
 #include <ostream>
 
-#include "vacuum_gripper_sim/core/cavity_surface.h"
+#include "vacuum_gripper_sim/core/cup_array.h"
 #include "vacuum_gripper_sim/core/step_result.h"
-#include "vacuum_gripper_sim/core/tet_mesh.h"
 
 namespace vacuum_gripper_sim {
 
-/** Writes a deformed cup as an unstructured grid of VTK (XML, ASCII): linear or quadratic
+/** Writes deformed cups as an unstructured grid of VTK (XML, ASCII): linear or quadratic
  tetrahedra, points in the world [m], and at each point
 
  - `displacement` [m] from the rest shape carried rigidly by the mount,
@@ -18,8 +17,7 @@ namespace vacuum_gripper_sim {
 
  @param result Its x_W, X_WM, gap and zones are written; gap and zones may be empty.
  @throws std::invalid_argument if the sizes disagree. */
-void WriteVtu(const TetMesh& mesh, const CavitySurface& cavity, const StepResult& result,
-              std::ostream* stream);
+void WriteVtu(const CupArray& cups, const StepResult& result, std::ostream* stream);
 
 inline constexpr double kNoGap = 1000.0;  ///< Stands for "no surface" in `gap`. [m]
 

@@ -22,12 +22,16 @@ struct CavitySurface {
   Eigen::Matrix3Xi triangles;                ///< 3 by #triangles; point indices.
   std::vector<std::vector<int>> neighbours;  ///< Vertex graph: the points one edge away, ascending.
   std::vector<int> border;  ///< B: the points on the surface's one boundary loop, ascending.
-  std::vector<int> port;    ///< Where the vacuum enters: the points nearest to the axis.
+  std::vector<int> port;    ///< Where the vacuum enters: of each cup the point nearest to its axis.
+  /// Where the points of each cup begin, and num_points(): a gripper's cups have one surface each,
+  /// numbered one after the other, no edge between them.
+  std::vector<int> first_points{0};
 
   int num_points() const { return static_cast<int>(nodes.size()); }
+  int num_cups() const { return static_cast<int>(first_points.size()) - 1; }
 };
 
-/** Builds the cavity surface of a mesh.
+/** Builds the cavity surface of a mesh of one cup.
 
  The port is the point nearest to the cup's axis (x = y = 0); of several equally near ones, the
  highest.

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -21,15 +20,14 @@ inline constexpr int kNumZones = 5;
 
 /// What the classifier says of the cavity surface.
 struct Classification {
-  double bottleneck_gap{
-      0.0};                 ///< g*: widest gap that leads from port to rim; < 0: loaded ring. [m]
-  std::vector<Zone> zones;  ///< A zone a point.
-  std::vector<bool> wet;    ///< The points that the cavity's pressure acts on if it is sealed.
-  std::array<std::uint32_t, kNumZones> zone_counts{};
+  std::vector<double> bottleneck_gaps;  ///< g* of each cup: widest gap that leads from port to rim;
+                                        ///< < 0: loaded ring. [m]
+  std::vector<Zone> zones;              ///< A zone a point.
+  std::vector<bool> wet;  ///< The points that the cavity's pressure acts on if it is sealed.
   std::vector<EdgeWay> edge_ways;  ///< Those that were given.
 };
 
-/** Decides where the cavity ends and how wide the widest way out is.
+/** Decides where the cavity of each cup ends and how wide its widest way out is.
 
  [Bernardin, Algorithm 1] floods the surface from its border through the points that are not in
  contact; what remains is the cavity. Here the same flood runs from the border *and* from the port
@@ -81,7 +79,7 @@ class Classifier {
 
   void Flood(const std::vector<double>& phi, const std::vector<EdgeWay>& ways);
   void PushShore(const Shore& shore);
-  double BottleneckGap(const std::vector<EdgeWay>& ways) const;
+  double BottleneckGap(int cup, const std::vector<EdgeWay>& ways) const;
   void ReachThroughOpen(const std::vector<int>& seeds, const std::vector<EdgeWay>& ways,
                         std::vector<bool>* reached);
 

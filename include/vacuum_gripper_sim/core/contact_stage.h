@@ -23,6 +23,7 @@ struct ContactSolution {
   SystemVector dv;                  ///< Velocity change of free nodes and bodies. [m/s], [rad/s]
   Eigen::Matrix3Xd x_W;             ///< Positions of all nodes, 3 by #nodes. [m]
   Eigen::VectorXd lambda;           ///< Normal force on each node, #nodes. [N]
+  Eigen::VectorXd on_objects;       ///< Of that what is between cup and objects. [N]
   Eigen::Matrix3Xd forces_W;        ///< Of the contacts on each node, 3 by #nodes. [N]
   std::vector<double> distance;     ///< Of each node to the nearest rigid surface, #nodes; +inf for
                                     ///< nodes inside the cup, and without surfaces. [m]
@@ -34,8 +35,8 @@ struct ContactSolution {
   double error{0.0};                ///< Largest penetration, gap under a loaded contact, or way
                                     ///< that a pulling one would let go. [m]
   int num_candidates{0};
-  int num_contacts{0};       ///< Those of the cup that carry load.
-  McpStatistics statistics;  ///< Iterations summed, residual of the last solve.
+  std::vector<int> contact_nodes;  ///< A node of the cup for each contact that carries load.
+  McpStatistics statistics;        ///< Iterations summed, residual of the last solve.
 };
 
 /** Items 1 and 3 to 5 of [Bernardin, Sec. III-A] for contacts alone: given the impulse b of the

@@ -1,7 +1,10 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <optional>
+#include <string>
+#include <vector>
 
 namespace vacuum_gripper_sim {
 
@@ -71,9 +74,17 @@ struct RegulatorParameters {
   double ramp_rate{100000.0};        ///< How fast the cavity follows the set-point. [Pa/s] > 0
 };
 
+/// One of a gripper's equal cups.
+struct CupMount {
+  std::string name;  ///< For people and topics; not empty where there are several, each its own.
+  /// Pose of the cup's own mount C in the gripper's M, z along suction as there.
+  Eigen::Isometry3d X_MC{Eigen::Isometry3d::Identity()};
+};
+
 /// Everything the Simulator needs besides mesh, surfaces and commands.
 struct SimulatorParameters {
   double time_step{0.01};                    ///< h [s] > 0
+  std::vector<CupMount> cups{CupMount()};    ///< At least one.
   Eigen::Vector3d gravity{0.0, 0.0, -9.81};  ///< World frame. [m/s^2]
   Material material;
   RayleighDamping damping;

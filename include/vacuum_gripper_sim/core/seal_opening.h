@@ -18,7 +18,7 @@ struct SealOpening {
   double largest_gap{0.0};  ///< Of the widest way out; +inf without surfaces. [m]
 };
 
-/** Locates the opening of a cavity that is not airtight.
+/** Locates the opening of a cup's cavity that is not airtight.
 
  A meridian is the line on the cavity surface from port to rim at one azimuth about the mount's
  axis; its gap G is the smallest on it, and usually that of the lip's lowest point there. Gaps run
@@ -29,11 +29,12 @@ struct SealOpening {
  as an opening of 2 degrees at the azimuth of the largest G. The largest gap is that of the
  classifier, whose ways out may wind.
 
- @param gap Of every point of the surface. [m] @param classification Of it; the cavity is airtight
- if the bottleneck gap does not exceed open_gap. @param open_gap What the seal tolerates. [m]
- @param x_W Positions of all mesh nodes, 3 by #nodes. [m] @param X_WM Pose of the mount. */
-SealOpening FindSealOpening(const CavitySurface& surface, const std::vector<double>& gap,
+ @param cup Which of the surface's. @param gap Of every point of the surface. [m] @param
+ classification Of it; the cavity is airtight if the bottleneck gap does not exceed open_gap. @param
+ open_gap What the seal tolerates. [m]
+ @param x_W Positions of all mesh nodes, 3 by #nodes. [m] @param X_WC Pose of the cup's mount. */
+SealOpening FindSealOpening(const CavitySurface& surface, int cup, const std::vector<double>& gap,
                             const Classification& classification, double open_gap,
-                            const Eigen::Matrix3Xd& x_W, const Eigen::Isometry3d& X_WM);
+                            const Eigen::Matrix3Xd& x_W, const Eigen::Isometry3d& X_WC);
 
 }  // namespace vacuum_gripper_sim

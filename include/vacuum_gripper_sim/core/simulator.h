@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "vacuum_gripper_sim/core/cavity_surface.h"
+#include "vacuum_gripper_sim/core/cup_array.h"
 #include "vacuum_gripper_sim/core/parameters.h"
 #include "vacuum_gripper_sim/core/rigid_object.h"
 #include "vacuum_gripper_sim/core/step_result.h"
@@ -12,20 +13,21 @@
 
 namespace vacuum_gripper_sim {
 
-/** A suction cup among rigid objects, advanced step by step as in [Bernardin, Sec. III-A].
+/** A gripper of one or more suction cups among rigid objects, advanced step by step as in
+ [Bernardin, Sec. III-A].
 
- The mount frame M (`cup_frame`) has its origin on the cup's axis at the height of the mount's top
- and z along suction, out of the cup: p_M = (x, -y, z_top - z) for a mesh point (x, y, z).
+ The mount frame M (`cup_frame`) is that of MountFromRest(). Cups that are several share it, each at
+ its own place.
 
  [Bernardin] A. Bernardin, C. Duriez, M. Marchal, "An Interactive Physically-based Model for Active
    Suction Phenomenon Simulation", IROS 2019. */
 class Simulator {
  public:
-  /** @param mesh       The cup at rest.
+  /** @param mesh       A single cup at rest.
       @param parameters Checked here.
       @param X_WM       Initial pose of the mount.
       @throws std::invalid_argument if a parameter or the mesh's cavity is unusable. */
-  Simulator(TetMesh mesh, const SimulatorParameters& parameters,
+  Simulator(const TetMesh& mesh, const SimulatorParameters& parameters,
             const Eigen::Isometry3d& X_WM = Eigen::Isometry3d::Identity());
   ~Simulator();
   Simulator(Simulator&&) noexcept;
@@ -58,16 +60,14 @@ class Simulator {
   void Reset(const Eigen::Isometry3d& X_WM);
 
   const StepResult& result() const;  ///< Of the last step, or the state at start.
-  const TetMesh& mesh() const;
-  const CavitySurface& cavity() const;
+  const CupArray& cups() const;
+  const TetMesh& mesh() const;                    ///< Of all cups.
+  const CavitySurface& cavity() const;            ///< Likewise.
   const SimulatorParameters& parameters() const;  ///< With the seal's gaps set.
 
  private:
   class Implementation;
   std::unique_ptr<Implementation> implementation_;
 };
-
-/// Pose of the mesh's rest frame R in the mount frame M; see Simulator.
-Eigen::Isometry3d MountFromRest(const TetMesh& mesh);
 
 }  // namespace vacuum_gripper_sim

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -19,8 +20,14 @@ struct Command {
 };
 
 /// State of the grip, numbered as in SealState.msg.
-enum class SealStatus : std::uint8_t { kOpen = 0, kSealed = 1, kRegulating = 2, kLost = 3 };
-/// For people: "open", "sealed", "regulating", "lost".
+enum class SealStatus : std::uint8_t {
+  kOpen = 0,
+  kSealed = 1,
+  kRegulating = 2,
+  kLost = 3,
+  kLeaking = 4
+};
+/// For people: "open", "sealed", "regulating", "lost", "leaking".
 const char* NameOf(SealStatus status);
 
 /// How a step ended. Failure is data, not an exception: the loop keeps its rate and reports it.
@@ -52,29 +59,48 @@ struct StepTimings {
   double total{0.0};
 };
 
+/// State of the grip of a cup, or of a gripper: the sum of its cups.
+struct GripSummary {
+  SealStatus status{SealStatus::kOpen};
+  double gauge_pressure{0.0};  ///< lambda_p, in the cavity during this step; of several cavities
+                               ///< the lowest. [Pa]
+  double bottleneck_gap{0.0};  ///< Widest gap from port to rim; < 0: loaded ring; +inf: no surface.
+                               ///< [m]
+  SealOpening opening;  ///< Where the cavity is open to the ambient: of several cavities, the
+                        ///< one with the largest gap.
+  /// Of the points that the pressure acts on; of an open cup, of those a seal would close off.
+  double cavity_area{0.0};        ///< Projected on the suction axis. [m^2]
+  double cavity_volume{0.0};      ///< Up to the plane across the edge of those points. [m^3]
+  double contact_force{0.0};      ///< Sum of the normal forces of objects on the cup. [N]
+  std::uint32_t num_contacts{0};  ///< Contacts of the cup that carry load.
+  std::array<std::uint32_t, kNumZones> zone_counts{};
+};
+
+/// One of the gripper's cups.
+struct CupResult : GripSummary {
+  Eigen::Isometry3d X_WC{Eigen::Isometry3d::Identity()};  ///< Pose of its mount.
+  Eigen::Vector3d force_C{Eigen::Vector3d::Zero()};   ///< Of the cup on its mount, its axes. [N]
+  Eigen::Vector3d torque_C{Eigen::Vector3d::Zero()};  ///< About the origin of C, its axes. [N m]
+};
+
+/// The gripper's: cups that hold speak for it, one that leaks before one that regulates before one
+/// that is sealed; LOST if none holds and one is lost.
+GripSummary SumOf(const std::vector<CupResult>& cups);
+
 /// Everything a publisher needs to know of one step; state is that at the step's end.
-struct StepResult {
+struct StepResult : GripSummary {
   StepOutcome outcome{StepOutcome::kOk};
   std::string message;  ///< What went wrong; empty if nothing did.
   double time{0.0};     ///< Simulated time since construction. [s]
 
   Eigen::Isometry3d X_WM{Eigen::Isometry3d::Identity()};  ///< Pose of the mount.
-  Eigen::Vector3d force_M{Eigen::Vector3d::Zero()};   ///< Of the cup on its mount, mount axes. [N]
+  Eigen::Vector3d force_M{Eigen::Vector3d::Zero()};   ///< Of the cups on the mount, its axes. [N]
   Eigen::Vector3d torque_M{Eigen::Vector3d::Zero()};  ///< About the mount's origin, its axes. [N m]
 
-  SealStatus status{SealStatus::kOpen};
-  double gauge_pressure{0.0};  ///< lambda_p, in the cavity during this step. [Pa]
-  double setpoint{0.0};        ///< [Pa]
-  double bottleneck_gap{
-      0.0};             ///< Widest gap from port to rim; < 0: loaded ring; +inf: no surface. [m]
-  SealOpening opening;  ///< Where the cavity is open to the ambient.
-  /// Of the points that the pressure acts on; of an open cup, of those a seal would close off.
-  double cavity_area{0.0};          ///< Projected on the suction axis. [m^2]
-  double cavity_volume{0.0};        ///< Up to the plane across the edge of those points. [m^3]
-  double contact_force{0.0};        ///< Sum of the normal forces of objects on the cup. [N]
-  double fold_force{0.0};           ///< Likewise where the cup's folds meet. [N]
+  double setpoint{0.0};             ///< [Pa]
+  std::vector<CupResult> cups;      ///< In the order of SimulatorParameters::cups.
+  double fold_force{0.0};           ///< Sum of the normal forces where cups touch themselves. [N]
   double friction_force{0.0};       ///< Size of the tangential forces' sum. [N]
-  std::uint32_t num_contacts{0};    ///< Contacts of the cup that carry load.
   std::uint32_t num_candidates{0};  ///< Contact constraints in the problem.
   double max_penetration{0.0};      ///< Over all free surface nodes, >= 0. [m]
 

@@ -12,22 +12,27 @@
 
 namespace vacuum_gripper_sim {
 
-/// What the cavity remembers from one step to the next.
+/// What a cup's cavity remembers from one step to the next.
+struct CavityState {
+  bool sealed{false};    ///< Airtight with the regulator at work.
+  bool lost{false};      ///< Was sealed under suction in this grip and no longer is.
+  double pressure{0.0};  ///< lambda_p, gauge. [Pa]
+};
+
+/// What the gripper's cavities remember.
 struct GripState {
-  bool sealed{false};             ///< Airtight with the regulator at work.
-  bool lost{false};               ///< Was sealed under suction in this grip and no longer is.
-  double pressure{0.0};           ///< lambda_p, gauge. [Pa]
+  std::vector<CavityState> cups;
   Classification classification;  ///< Of the step's end; empty before the first step.
 };
 
-/// A solved step: motion, and the cavity at its end.
+/// A solved step: motion, and the cavities at its end.
 struct SuctionSolution {
   ContactSolution contact;
   Classification classification;
   Eigen::Matrix3Xd load;  ///< H_p^T lambda_p, 3 by #nodes. [N]
 };
 
-/** Couples the cavity's pressure with the contacts: the mixed complementarity problem of
+/** Couples the cavities' pressures with the contacts: the mixed complementarity problem of
  [Bernardin, Sec. III-C],
 
      delta = delta_free + W_cc lambda_c + W_cp lambda_p,
@@ -43,7 +48,8 @@ struct SuctionSolution {
  `max_rounds` is reached. The seal is lost only if the state at the *end* leaks; then the step is
  solved again without pressure.
 
- The regulator moves lambda_p towards the set-point by at most ramp_rate * h a step. */
+ The regulator moves lambda_p towards the set-point by at most ramp_rate * h a step. Several cups
+ take these ways side by side, each with a seal of its own. */
 class Suction {
  public:
   /// @param cavity Must outlive this. @param seal With its gaps set.
@@ -64,12 +70,16 @@ class Suction {
   /// Classifies the cavity at the end of a contact solution.
   void ClassifyEnd(const ContactStage& stage, const ContactSolution& contact,
                    const std::vector<bool>& was_wet, Classification* classification);
-  bool SolveWith(const std::vector<bool>& wet, double pressure, ContactStage* stage,
-                 SuctionSolution* solution, StepTimings* timings);
-  bool HoldSeal(double pressure, ContactStage* stage, GripState* state, SuctionSolution* solution,
-                StepTimings* timings);
-  bool TryToSeal(double pressure, ContactStage* stage, GripState* state, SuctionSolution* solution,
+  /// Solves with the pressures and the wet points of the moment.
+  bool SolveOnce(ContactStage* stage, SuctionSolution* solution, StepTimings* timings);
+  bool HoldSeals(ContactStage* stage, GripState* state, SuctionSolution* solution,
                  StepTimings* timings);
+  bool TryToSeal(const std::vector<double>& pressure, ContactStage* stage, GripState* state,
+                 SuctionSolution* solution, StepTimings* timings);
+  /// Gives up those of the cups whose cavity has come open. @returns if there were some.
+  bool ReleaseOpen(const Classification& classification, std::vector<int>* cups);
+  /// Lets the pressure act on what a classification found wet of some cups.
+  void SetWet(const std::vector<int>& cups, const Classification& classification);
 
   const CavitySurface* cavity_;
   EdgeWays edge_ways_;
@@ -79,8 +89,11 @@ class Suction {
   double young_modulus_;
   Eigen::Matrix3Xd area_vectors_;  // of the step's start [m^2]
   Eigen::Index num_nodes_{0};
-  std::vector<bool> wet_;    // that the next solve loads
-  std::vector<double> phi_;  // of the points, see Classifier [m]
+  // That the next solve loads: pressures of the cups [Pa], and which points of theirs.
+  std::vector<double> pressures_;
+  std::vector<bool> wet_;
+  std::vector<bool> was_wet_;  // those of them that see suction
+  std::vector<double> phi_;    // of the points, see Classifier [m]
 };
 
 }  // namespace vacuum_gripper_sim
