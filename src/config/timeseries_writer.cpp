@@ -1,26 +1,16 @@
 #include "vacuum_gripper_sim/config/timeseries_writer.h"
 
-#include <locale>
+#include "csv_text.h"
 
 namespace vacuum_gripper_sim {
-namespace {
-
-constexpr int kDigits = 12;
-
-void WriteVector(const Eigen::Vector3d& v, std::ostream* stream) {
-  *stream << ',' << v.x() << ',' << v.y() << ',' << v.z();
-}
-
-}  // namespace
-
 TimeseriesWriter::TimeseriesWriter(std::ostream* stream) : stream_(stream) {
-  stream_->imbue(std::locale::classic());
-  stream_->precision(kDigits);
-  *stream_ << "time,mount_x,mount_y,mount_z,setpoint,pressure,status,force_x,force_y,force_z,"
-              "torque_x,torque_y,torque_z,contacts,cavity_area,contact_force,iterations,residual,"
-              "step_ms,bottleneck_gap,cavity_volume,candidates,max_penetration,zone_0,zone_1,"
-              "zone_2,zone_3,zone_4,linear_iterations,factorizations,outcome,"
-              "opening_azimuth,opening_width,opening_gap,friction_force\n";
+  BeginCsv(
+      "time,mount_x,mount_y,mount_z,setpoint,pressure,status,force_x,force_y,force_z,"
+      "torque_x,torque_y,torque_z,contacts,cavity_area,contact_force,iterations,residual,"
+      "step_ms,bottleneck_gap,cavity_volume,candidates,max_penetration,zone_0,zone_1,"
+      "zone_2,zone_3,zone_4,linear_iterations,factorizations,outcome,"
+      "opening_azimuth,opening_width,opening_gap,friction_force",
+      stream_);
 }
 
 void TimeseriesWriter::Write(const StepResult& r) {
