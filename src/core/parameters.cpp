@@ -1,35 +1,10 @@
 #include "vacuum_gripper_sim/core/parameters.h"
 
 #include <cmath>
-#include <sstream>
-#include <stdexcept>
-#include <string>
+
+#include "require.h"
 
 namespace vacuum_gripper_sim {
-namespace {
-
-void Require(bool allowed, const char* name, double value, const char* rule) {
-  if (allowed) return;
-  std::ostringstream message;
-  message << name << " = " << value << ", must be " << rule;
-  throw std::invalid_argument(message.str());
-}
-
-void RequirePositive(const char* name, double value, const char* unit) {
-  const std::string rule = std::string("finite and > 0 ") + unit;
-  Require(std::isfinite(value) && value > 0.0, name, value, rule.c_str());
-}
-
-void RequireNotNegative(const char* name, double value, const char* unit) {
-  const std::string rule = std::string("finite and >= 0 ") + unit;
-  Require(std::isfinite(value) && value >= 0.0, name, value, rule.c_str());
-}
-
-void RequireAtLeastOne(const char* name, int value) {
-  Require(value >= 1, name, value, "at least 1");
-}
-
-}  // namespace
 
 void Validate(const SimulatorParameters& p) {
   Require(p.time_step > 0.0 && p.time_step <= 0.1, "time_step", p.time_step, "in (0, 0.1] [s]");
