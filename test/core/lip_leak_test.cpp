@@ -264,6 +264,16 @@ TEST(LipLeak, RoughnessLeaksAsItsHydraulicGap) {
   }
 }
 
+TEST(LipLeak, LeaksOnTheRoughSideAlone) {
+  LipContact contact = TheFlatLip().Contact([](double, double) { return 0.0; });
+  contact.roughness.assign(contact.gap.size(), 10e-6);
+  const double all = TheFlatLip().Leak(contact).Throughput(kAmbient, kCavity);
+  for (std::size_t i = 0; i < contact.roughness.size(); ++i) {
+    if (TheFlatLip().rest(0, static_cast<Eigen::Index>(i)) < 0.0) contact.roughness[i] = 0.0;
+  }
+  EXPECT_NEAR(TheFlatLip().Leak(contact).Throughput(kAmbient, kCavity), 0.5 * all, 0.02 * all);
+}
+
 TEST(LipLeak, DoesNotDependOnWhereTheCupIs) {
   const FlatLip& lip = TheFlatLip();
   LipContact contact = lip.Contact([](double radius, double azimuth) {

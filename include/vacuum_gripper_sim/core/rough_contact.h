@@ -9,7 +9,8 @@ namespace vacuum_gripper_sim {
      p = beta E* exp(-alpha u / h_rms),
 
  [Persson 2007, Yang and Persson 2008; for suction cups Tiwari and Persson 2019]. alpha and beta
- depend on the spectrum of the roughness, which nobody knows of a work piece, and are of order one.
+ depend on the spectrum of the roughness and are of order one; that of a work piece is hardly ever
+ known, so round values stand for all.
 
  [Persson 2007] B. N. J. Persson, "Relation between interfacial separation and load: a general
    theory of contact mechanics", Phys. Rev. Lett. 99, 125502.
