@@ -80,6 +80,11 @@ LipLeak::LipLeak(const CavitySurface& surface, const Eigen::Matrix3Xd& rest, dou
       stations_(meridians_.crossings.size()),
       binned_(kSectors),
       force_(kSectors) {
+  FindSmallestTouch(rest);
+  PrepareSpread(surface, rest);
+}
+
+void LipLeak::FindSmallestTouch(const Eigen::Matrix3Xd& rest) {
   LipContact closed;
   for (std::vector<double>* values : {&closed.gap, &closed.normal_force, &closed.roughness}) {
     values->assign(nodes_.size(), 0.0);
@@ -93,7 +98,10 @@ LipLeak::LipLeak(const CavitySurface& surface, const Eigen::Matrix3Xd& rest, dou
   }
   const double mean_piece = length / num_pieces;
   smallest_touch_ = kSmallestTouch * mean_piece * kStep * meridians_.radius;
+}
 
+void LipLeak::PrepareSpread(const CavitySurface& surface, const Eigen::Matrix3Xd& rest) {
+  bins_.reserve(nodes_.size());
   for (const int node : nodes_) {
     const double azimuth = std::atan2(-rest(1, node), rest(0, node));
     const double place = azimuth / kStep - 0.5;

@@ -72,7 +72,7 @@ class Builder {
     auto [t, entry] = FindStart(azimuth);
     chain.push_back(CrossingOf(t, entry));
     int num_counted = 0;
-    while (t != TriangleTopology::kNone) {
+    while (true) {
       if (Reach(chain.back()) >= kPort * meridians_.radius) {
         num_counted = static_cast<int>(chain.size()) - first;
       }
@@ -83,12 +83,12 @@ class Builder {
       chain.push_back(crossing);
       const int from = t;
       t = topology_.neighbors(exit, from);
-      if (t == TriangleTopology::kNone) break;
+      if (t == TriangleTopology::kNone) Fail(azimuth);  // out over the border again
       entry = 0;
       while (topology_.neighbors(entry, t) != from || !Crosses(t, entry)) ++entry;
     }
     const int end = static_cast<int>(chain.size());
-    if (t == TriangleTopology::kNone || num_counted < 2) Fail(azimuth);
+    if (num_counted < 2) Fail(azimuth);
     std::reverse(chain.begin() + first, chain.end());
     meridians_.chains.push_back({first, end - num_counted, end});
   }

@@ -249,7 +249,7 @@ TEST(LipLeak, RoughnessLeaksAsItsHydraulicGap) {
     contact.roughness.assign(contact.gap.size(), 10e-6);
     for (int k = 0; k < FlatLip::kAround; k += 2) {  // on every other point of one ring
       contact.normal_force[static_cast<std::size_t>(FlatLip::Point(5, k))] =
-          force / (FlatLip::kAround / 2);
+          2.0 * force / FlatLip::kAround;
     }
     const double throughput = TheFlatLip().Leak(contact).Throughput(kAmbient, kCavity);
     const double gap = HydraulicGap(10e-6, force / area, kModulus);

@@ -93,6 +93,8 @@ class LipLeak {
     double gap{0.0};   // m
   };
 
+  void FindSmallestTouch(const Eigen::Matrix3Xd& rest);
+  void PrepareSpread(const CavitySurface& surface, const Eigen::Matrix3Xd& rest);
   void PlaceStations(const Eigen::Matrix3Xd& x_W, const LipContact& contact);
   void SpreadForces(const std::vector<double>& normal_force);
   double ContactPressure(int meridian) const;
@@ -102,10 +104,10 @@ class LipLeak {
   LipMeridians meridians_;
   std::vector<int> nodes_;  // of the points
   double reduced_modulus_;
-  double widest_gap_;        // m
-  double smallest_touch_;    // area of a sector's touching part, at least [m^2]
-  std::vector<Bin> bins_;    // of the points' azimuths
-  std::vector<double> hat_;  // weights to one side, the middle first; all sum up to 1
+  double widest_gap_;           // m
+  double smallest_touch_{0.0};  // area of a sector's touching part, at least [m^2]
+  std::vector<Bin> bins_;       // of the points' azimuths
+  std::vector<double> hat_;     // weights to one side, the middle first; all sum up to 1
 
   // Of the current call.
   Eigen::Matrix3Xd positions_W_;        // of the crossings [m]
