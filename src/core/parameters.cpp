@@ -3,35 +3,14 @@
 #include <cmath>
 #include <cstddef>
 #include <set>
-#include <sstream>
 #include <stdexcept>
 #include <string>
 
+#include "require.h"
 #include "vacuum_gripper_sim/core/rigid_surface.h"
 
 namespace vacuum_gripper_sim {
 namespace {
-
-void Require(bool allowed, const char* name, double value, const char* rule) {
-  if (allowed) return;
-  std::ostringstream message;
-  message << name << " = " << value << ", must be " << rule;
-  throw std::invalid_argument(message.str());
-}
-
-void RequirePositive(const char* name, double value, const char* unit) {
-  const std::string rule = std::string("finite and > 0 ") + unit;
-  Require(std::isfinite(value) && value > 0.0, name, value, rule.c_str());
-}
-
-void RequireNotNegative(const char* name, double value, const char* unit) {
-  const std::string rule = std::string("finite and >= 0 ") + unit;
-  Require(std::isfinite(value) && value >= 0.0, name, value, rule.c_str());
-}
-
-void RequireAtLeastOne(const char* name, int value) {
-  Require(value >= 1, name, value, "at least 1");
-}
 
 void RequireCups(const std::vector<CupMount>& cups) {
   if (cups.empty()) throw std::invalid_argument("cups has 0 entries, must have at least one");
