@@ -29,16 +29,17 @@ GasCup Rigid(double volume, LeakFlow leak = nullptr) {
   return cup;
 }
 
-/// p after dp/dt = rate(p) from p_0 for a time, by the classical Runge-Kutta method.
-double Quadrature(const std::function<double(double)>& rate, double p_0, double time) {
-  const int steps = 20000;
+/// p after dp/dt = rate(t, p) from p_0 for a time, by the classical Runge-Kutta method.
+double Quadrature(const std::function<double(double, double)>& rate, double p_0, double time) {
+  const int steps = 4000;
   const double dt = time / steps;
   double p = p_0;
   for (int i = 0; i < steps; ++i) {
-    const double k_1 = rate(p);
-    const double k_2 = rate(p + 0.5 * dt * k_1);
-    const double k_3 = rate(p + 0.5 * dt * k_2);
-    const double k_4 = rate(p + dt * k_3);
+    const double t = i * dt;
+    const double k_1 = rate(t, p);
+    const double k_2 = rate(t + 0.5 * dt, p + 0.5 * dt * k_1);
+    const double k_3 = rate(t + 0.5 * dt, p + 0.5 * dt * k_2);
+    const double k_4 = rate(t + dt, p + dt * k_3);
     p += dt / 6.0 * (k_1 + 2.0 * k_2 + 2.0 * k_3 + k_4);
   }
   return p;
@@ -63,7 +64,8 @@ TEST(GasNetwork, EvacuatesThroughAnOrificeExponentiallyWhileChoked) {
     for (int i = 1; i <= std::lround(0.2 / h); ++i) {
       Advance(network, {}, flow, h, &state, &solution);
       const double t = i * h;
-      const double exact = Quadrature([&](double p) { return flow(p) / volume; }, kAmbient, t);
+      const double exact =
+          Quadrature([&](double, double p) { return flow(p) / volume; }, kAmbient, t);
       if (t < 0.049) {
         EXPECT_NEAR(exact, kAmbient * std::exp(-t / time_constant), 1e-4 * exact);
       }
@@ -80,7 +82,7 @@ TEST(GasNetwork, FillsThroughAnOrificeLinearlyWhileChoked) {
   const GasNetwork network(1e-6, {line}, kAmbient);
   GasCup cup = Rigid(6e-6, Orifice(area));
   cup.hose_opening = 0.0;
-  const auto rate = [&](double p) { return OrificeThroughput(area, kAmbient, p) / volume; };
+  const auto rate = [&](double, double p) { return OrificeThroughput(area, kAmbient, p) / volume; };
   for (const double h : {0.001, 0.01}) {
     GasState state = network.AtAmbient({6e-6});
     state.amount[0] = 1e4 * volume;
@@ -120,6 +122,28 @@ TEST(GasNetwork, PassiveSystemKeepsTheSumOfPV) {
   const double expected = kAmbient * 14e-6 / 18e-6;
   EXPECT_NEAR(solution.pressure[0], expected, 1e-9 * expected);
   EXPECT_NEAR(solution.manifold_pressure, expected, 1e-9 * expected);
+}
+
+TEST(GasNetwork, SqueezedCupBreathesThroughItsLeakTheSameForAnyStep) {
+  const double area = 1e-6, dead_volume = CupLineParameters{}.dead_volume;
+  const auto cavity = [](double t) { return 6e-6 - 1e-4 * t; };  // 6 to 1 cm^3 in 50 ms
+  const auto rate = [&](double t, double p) {
+    const double outflow = OrificeThroughput(area, p, kAmbient);
+    return (1e-4 * p - outflow) / (cavity(t) + dead_volume);
+  };
+  const GasNetwork network(1e-6, {CupLineParameters{}}, kAmbient);
+  for (const double h : {0.001, 0.01}) {
+    GasState state = network.AtAmbient({cavity(0.0)});
+    GasSolution solution;
+    for (int i = 1; i <= std::lround(0.05 / h); ++i) {
+      GasCup cup = Rigid(cavity(i * h), Orifice(area));
+      cup.hose_opening = 0.0;
+      Advance(network, {cup}, NoFlow, h, &state, &solution);
+      const double exact = Quadrature(rate, kAmbient, i * h);
+      EXPECT_NEAR(solution.pressure[0], exact, 0.001 * exact) << "h = " << h << ", " << i;
+    }
+    EXPECT_GT(solution.pressure[0], 1.05 * kAmbient);
+  }
 }
 
 TEST(GasNetwork, ComplianceIsPartOfTheSolution) {

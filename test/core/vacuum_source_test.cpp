@@ -154,6 +154,7 @@ TEST(VacuumSource, LostSupplyVentsAnEjectorAndClosesAPump) {
   EXPECT_EQ(pump.Throughput(6e4), 0.0);
   EXPECT_EQ(regulator.Throughput(6e4), 0.0);
   EXPECT_GT(regulator.Throughput(3e4), 0.0);
+  EXPECT_LT(regulator.Throughput(1.1 * kAmbient), 0.0);
   ejector.Begin(0.0, 0.02);
   EXPECT_EQ(ejector.Throughput(6e4), vent);  // no air for the blow-off either
   pump.Begin(0.0, 0.015);

@@ -62,7 +62,7 @@ class VacuumSource {
   double Capacity(double p_abs) const;
 
   /** Whether the source, switched on, can hold the set-point against a leak: that takes out more
-   than comes in there.
+   than comes in there. A closed port takes out nothing and never can.
    @param leak Throughput into the cavity at its absolute pressure. [Pa m^3/s] */
   bool CanHold(const std::function<double(double p_abs)>& leak) const;
 
