@@ -20,8 +20,9 @@ struct SubStep {
   double manifold_volume;
   double ambient_pressure;
   bool check_valves_work;
-  double progress;  // of the step at the sub-step's end, 0 to 1
   double dt;
+  double progress{0.0};  // of the step at the sub-step's end, 0 to 1
+  double time{0.0};      // there, since the step's start
 
   double Volume(std::size_t k, double p) const {
     const GasCup& cup = cups[k];
@@ -47,7 +48,7 @@ struct SubStep {
 
   /// Of the manifold without its hoses. [Pa m^3]
   double ManifoldResidual(double p_m) const {
-    return p_m * manifold_volume - now.manifold_amount - dt * source(p_m);
+    return p_m * manifold_volume - now.manifold_amount - dt * source(p_m, time);
   }
 };
 
@@ -177,14 +178,14 @@ void GasNetwork::Solve(const GasState& start, const std::vector<GasCup>& cups,
                manifold_volume_,
                ambient_pressure_,
                check_valves_work,
-               0.0,
                h / sub_steps};
   EliminatedCups eliminated(n);
   for (int i = 1; i <= sub_steps; ++i) {
     step.progress = static_cast<double>(i) / sub_steps;
+    step.time = h * step.progress;
     if (!SolveByNewton(step, &eliminated, &p_m, &pressure)) SolveNested(step, &p_m, &pressure);
 
-    const double source_flow = source(p_m);
+    const double source_flow = source(p_m, step.time);
     solution->source_flow += source_flow / sub_steps;
     now.manifold_amount += step.dt * source_flow;
     for (std::size_t k = 0; k < n; ++k) {
