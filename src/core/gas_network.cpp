@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 #include <utility>
 
@@ -20,8 +21,9 @@ struct SubStep {
   double manifold_volume;
   double ambient_pressure;
   bool check_valves_work;
-  double progress;  // of the step at the sub-step's end, 0 to 1
   double dt;
+  double progress{0.0};  // of the step at the sub-step's end, 0 to 1
+  double time{0.0};      // there, since the step's start
 
   double Volume(std::size_t k, double p) const {
     const GasCup& cup = cups[k];
@@ -47,7 +49,7 @@ struct SubStep {
 
   /// Of the manifold without its hoses. [Pa m^3]
   double ManifoldResidual(double p_m) const {
-    return p_m * manifold_volume - now.manifold_amount - dt * source(p_m);
+    return p_m * manifold_volume - now.manifold_amount - dt * source(p_m, time);
   }
 };
 
@@ -58,22 +60,26 @@ struct EliminatedCups {
   std::vector<double> slope;
 };
 
-/// Newton's method on all pressures at once. @returns whether it converged.
+/// Newton's method on all pressures at once. Each time the manifold's turns back, its steps are
+/// bounded to half the last one: at kinks, as a regulator's flow has, they would go back and forth
+/// for ever. @returns whether it converged.
 bool SolveByNewton(const SubStep& step, EliminatedCups* eliminated, double* p_m,
                    std::vector<double>* pressure) {
-  constexpr int kMaxIterations = 20;
+  constexpr int kMaxIterations = 40;
   constexpr double kProbe = 1e-3;        // Pa, of the difference quotients
   constexpr double kLeastRemains = 0.2;  // of a pressure in one iteration: it stays positive
   const std::size_t n = pressure->size();
+  double last_change = 0.0;
+  double largest_change = std::numeric_limits<double>::infinity();
   std::vector<double>& shift = eliminated->shift;
   std::vector<double>& slope = eliminated->slope;
   for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
-    // Eliminates the cups from the manifold's row.
+    // Eliminates the cups from the manifold's row, which is reduced to diagonal * dp_m = -reduced.
     const double tolerance = GasNetwork::kTolerance;
-    double residual = step.ManifoldResidual(*p_m);
-    double diagonal = (step.ManifoldResidual(*p_m + kProbe) - residual) / kProbe;
+    double manifold_residual = step.ManifoldResidual(*p_m);
+    double diagonal = (step.ManifoldResidual(*p_m + kProbe) - manifold_residual) / kProbe;
+    double reduced = manifold_residual;
     bool converged = true;
-    double manifold_residual = residual;
     for (std::size_t k = 0; k < n; ++k) {
       const double p = (*pressure)[k];
       const double hose = step.Hose(k, *p_m, p);
@@ -86,13 +92,16 @@ bool SolveByNewton(const SubStep& step, EliminatedCups* eliminated, double* p_m,
       shift[k] = -cup_residual / (own_slope - by_cup);
       slope[k] = by_manifold / (own_slope - by_cup);
       manifold_residual += step.dt * hose;
-      residual += step.dt * hose + by_cup * shift[k];
+      reduced += step.dt * hose + by_cup * shift[k];
       diagonal += by_manifold + by_cup * slope[k];
     }
     converged = converged && std::abs(manifold_residual) <= tolerance * step.manifold_volume;
     if (converged) return true;
 
-    const double change = -residual / diagonal;
+    double change = -reduced / diagonal;
+    if (change * last_change < 0.0) largest_change = 0.5 * std::abs(last_change);
+    change = std::clamp(change, -largest_change, largest_change);
+    last_change = change;
     if (!std::isfinite(change)) return false;
     *p_m = std::max(*p_m + change, kLeastRemains * *p_m);
     for (std::size_t k = 0; k < n; ++k) {
@@ -129,6 +138,14 @@ void SolveNested(const SubStep& step, double* p_m, std::vector<double>* pressure
       },
       step.ambient_pressure);
   for (std::size_t k = 0; k < pressure->size(); ++k) (*pressure)[k] = cup_pressure(k, *p_m);
+}
+
+/// Leads a pressure where its last change, repeated, would: a good start, since a regulator's
+/// reference and most transients move steadily.
+void Extrapolate(double* p, double* p_before) {
+  const double next = std::max(2.0 * *p - *p_before, 0.5 * *p);
+  *p_before = *p;
+  *p = next;
 }
 
 }  // namespace
@@ -177,14 +194,18 @@ void GasNetwork::Solve(const GasState& start, const std::vector<GasCup>& cups,
                manifold_volume_,
                ambient_pressure_,
                check_valves_work,
-               0.0,
                h / sub_steps};
   EliminatedCups eliminated(n);
+  std::vector<double> before = pressure;
+  double p_m_before = p_m;
   for (int i = 1; i <= sub_steps; ++i) {
     step.progress = static_cast<double>(i) / sub_steps;
+    step.time = h * step.progress;
+    Extrapolate(&p_m, &p_m_before);
+    for (std::size_t k = 0; k < n; ++k) Extrapolate(&pressure[k], &before[k]);
     if (!SolveByNewton(step, &eliminated, &p_m, &pressure)) SolveNested(step, &p_m, &pressure);
 
-    const double source_flow = source(p_m);
+    const double source_flow = source(p_m, step.time);
     solution->source_flow += source_flow / sub_steps;
     now.manifold_amount += step.dt * source_flow;
     for (std::size_t k = 0; k < n; ++k) {

@@ -5,6 +5,13 @@
 #include <stdexcept>
 
 namespace vacuum_gripper_sim {
+namespace {
+
+constexpr double kNow = 1e-9;  // s; times that are the same but for round-off
+
+}  // namespace
+
+bool StepInterval::Contains(double time) const { return time > begin + kNow && time <= end + kNow; }
 
 VacuumSource::VacuumSource(const VacuumParameters& parameters) : parameters_(parameters) {
   if (parameters_.source == VacuumSourceType::kIdealRegulator) {
@@ -18,22 +25,22 @@ void VacuumSource::Begin(double setpoint, double h) {
   if (parameters_.source == VacuumSourceType::kRegulator) {
     state_.commanded_on = setpoint < 0.0;
     state_.phase = state_.commanded_on ? ValvePhase::kOn : ValvePhase::kOff;
-    AdvanceReference(h);
+    state_.reference_before = state_.reference;
+    state_.reference = ReferenceAt(h);
   } else {
     AdvanceValve(h);
   }
 }
 
-void VacuumSource::AdvanceReference(double h) {
+double VacuumSource::ReferenceAt(double time) const {
   const double limit = parameters_.regulator.rate_limit;
   const double lag = parameters_.regulator.time_constant;
-  const double error = setpoint_ - state_.reference;
+  const double error = setpoint_ - state_.reference_before;
   // At the limit until the lag alone is slower, exponential from there on.
-  const double linear_time = std::clamp(std::abs(error) / limit - lag, 0.0, h);
+  const double linear_time = std::clamp(std::abs(error) / limit - lag, 0.0, time);
   const double left = std::max(std::abs(error) - limit * linear_time, 0.0);
-  const double decay =
-      lag > 0.0 ? std::exp(-(h - linear_time) / lag) : (linear_time < h ? 0.0 : 1.0);
-  state_.reference = setpoint_ - std::copysign(left * decay, error);
+  const double decay = lag > 0.0 ? std::exp(-(time - linear_time) / lag) : 1.0;
+  return setpoint_ - std::copysign(left * decay, error);
 }
 
 void VacuumSource::AdvanceValve(double h) {
@@ -42,40 +49,33 @@ void VacuumSource::AdvanceValve(double h) {
   if (command != state_.commanded_on) state_.waiting = 0.0;
   state_.commanded_on = command;
 
-  constexpr double kNow = 1e-12;  // s; steps add up to a delay but for round-off
-  double on_time = 0.0;
-  double blow_off_time = 0.0;
-  for (double left = h;;) {
-    const bool is_on = state_.phase == ValvePhase::kOn;
-    if (command != is_on) {
-      const double delay = command ? valve.on_delay : valve.off_delay;
-      if (state_.waiting >= delay - kNow) {
-        const bool blows = !command && valve.blow_off_duration > 0.0;
-        state_.phase = command ? ValvePhase::kOn : blows ? ValvePhase::kBlowOff : ValvePhase::kOff;
-        state_.blow_off_left = blows ? valve.blow_off_duration : 0.0;
-        continue;
-      }
+  state_.on = state_.blow_off = StepInterval{};
+  const double delay = command ? valve.on_delay : valve.off_delay;
+  for (double time = 0.0;;) {
+    const bool follows = command == (state_.phase == ValvePhase::kOn);
+    if (!follows && state_.waiting >= delay - kNow) {
+      const bool blows = !command && valve.blow_off_duration > 0.0;
+      state_.phase = command ? ValvePhase::kOn : blows ? ValvePhase::kBlowOff : ValvePhase::kOff;
+      state_.blow_off_left = blows ? valve.blow_off_duration : 0.0;
+      continue;
     }
     if (state_.phase == ValvePhase::kBlowOff && state_.blow_off_left <= kNow) {
       state_.phase = ValvePhase::kOff;
     }
-    if (left <= kNow) break;
+    if (time >= h - kNow) break;
 
-    double interval = left;  // to the next event
-    if (command != is_on) {
-      interval = std::min(interval, (command ? valve.on_delay : valve.off_delay) - state_.waiting);
-    }
+    // Each phase comes at most once in a step: the command is the same throughout.
+    double next = h;
+    if (!follows) next = std::min(next, time + delay - state_.waiting);
+    if (state_.phase == ValvePhase::kBlowOff) next = std::min(next, time + state_.blow_off_left);
+    if (state_.phase == ValvePhase::kOn) state_.on = {time, next};
     if (state_.phase == ValvePhase::kBlowOff) {
-      interval = std::min(interval, state_.blow_off_left);
-      state_.blow_off_left -= interval;
-      blow_off_time += interval;
+      state_.blow_off = {time, next};
+      state_.blow_off_left -= next - time;
     }
-    if (is_on) on_time += interval;
-    if (command != is_on) state_.waiting += interval;
-    left -= interval;
+    if (!follows) state_.waiting += next - time;
+    time = next;
   }
-  state_.on_share = std::min(on_time / h, 1.0);
-  state_.blow_off_share = std::min(blow_off_time / h, 1.0 - state_.on_share);
 }
 
 double VacuumSource::VentThroughput(double p_abs) const {
@@ -97,30 +97,28 @@ double VacuumSource::Capacity(double p_abs) const {
   }
 }
 
-double VacuumSource::RegulatorThroughput(double p_abs) const {
+double VacuumSource::RegulatorThroughput(double p_abs, double time) const {
   const double supply = parameters_.regulator.supply_flow * parameters_.ambient_pressure;
-  const double reference = std::max(parameters_.ambient_pressure + state_.reference, 0.0);
+  const double reference = std::max(parameters_.ambient_pressure + ReferenceAt(time), 0.0);
   const double wanted = supply * (reference - p_abs) / kRegulatorBand;
   const double vent = VentThroughput(p_abs);
   return std::clamp(wanted, std::min(vent, 0.0) - Capacity(p_abs), std::max(vent, 0.0));
 }
 
-double VacuumSource::SwitchedThroughput(double p_abs) const {
-  const bool is_ejector = parameters_.source == VacuumSourceType::kEjector;
-  const double on = state_.on_share;
-  const double blow_off = is_ejector && pump_lost_ ? 0.0 : state_.blow_off_share;
-  const double vented = is_ejector && pump_lost_ ? 1.0 : 1.0 - on;
-  return vented * VentThroughput(p_abs) - on * Capacity(p_abs) +
-         blow_off * parameters_.valve.blow_off_flow * parameters_.ambient_pressure;
+double VacuumSource::SwitchedThroughput(double p_abs, double time) const {
+  if (parameters_.source == VacuumSourceType::kEjector && pump_lost_) return VentThroughput(p_abs);
+  if (state_.on.Contains(time)) return -Capacity(p_abs);
+  const double blow_off = state_.blow_off.Contains(time) ? parameters_.valve.blow_off_flow : 0.0;
+  return VentThroughput(p_abs) + blow_off * parameters_.ambient_pressure;
 }
 
-double VacuumSource::Throughput(double p_abs) const {
+double VacuumSource::Throughput(double p_abs, double time) const {
   switch (parameters_.source) {
     case VacuumSourceType::kRegulator:
-      return RegulatorThroughput(p_abs);
+      return RegulatorThroughput(p_abs, time);
     case VacuumSourceType::kEjector:
     case VacuumSourceType::kPump:
-      return SwitchedThroughput(p_abs);
+      return SwitchedThroughput(p_abs, time);
     case VacuumSourceType::kVented:
       return VentThroughput(p_abs);
     default:

@@ -10,8 +10,9 @@ namespace vacuum_gripper_sim {
 /// What flows from the ambient into a cup at absolute pressures. [Pa m^3/s]
 using LeakFlow = std::function<double(double p_from, double p_to)>;
 
-/// What flows into the manifold at its absolute pressure. [Pa m^3/s]
-using SourceFlow = std::function<double(double p_abs)>;
+/// What flows into the manifold at its absolute pressure and a time since the step's start [s].
+/// [Pa m^3/s]
+using SourceFlow = std::function<double(double p_abs, double time)>;
 
 /// The air in the network: its state, see GasNetwork.
 struct GasState {

@@ -9,15 +9,24 @@ namespace vacuum_gripper_sim {
 /// What the valve of an ejector or a pump does.
 enum class ValvePhase { kOff, kOn, kBlowOff };
 
+/// Part of a step, in time since its start. [s]
+struct StepInterval {
+  double begin{0.0};
+  double end{0.0};
+  /// Whether it holds the time and what comes just before it; intervals that meet share no time.
+  bool Contains(double time) const;
+};
+
 /// What a source remembers; copying it back undoes a step.
 struct VacuumSourceState {
   ValvePhase phase{ValvePhase::kOff};  ///< At the end of the step begun last.
   bool commanded_on{false};
-  double waiting{0.0};        ///< Since the command that the valve has not yet followed. [s]
-  double blow_off_left{0.0};  ///< Of the pulse. [s]
-  double reference{0.0};      ///< Of the regulator at the step's end, gauge. [Pa]
-  double on_share{0.0};       ///< Parts of the step in each phase; the rest is off. [-]
-  double blow_off_share{0.0};
+  double waiting{0.0};           ///< Since the command that the valve has not yet followed. [s]
+  double blow_off_left{0.0};     ///< Of the pulse. [s]
+  double reference_before{0.0};  ///< Of the regulator at the step's start, gauge. [Pa]
+  double reference{0.0};         ///< At its end. [Pa]
+  StepInterval on;               ///< Of the step begun last; besides these two it is off.
+  StepInterval blow_off;
 };
 
 /** Source of vacuum at the manifold's port: the air that enters it at the pressure it has there.
@@ -31,8 +40,7 @@ struct VacuumSourceState {
  - Passive: nothing passes. Vented: the vent, always.
 
  A command counts only if it lasts for the valve's delay: one that is revoked before has no effect.
- Delays are times: a step during which the valve switches has the throughput of each phase by its
- share of the step.
+ Delays are times and may end within a step.
 
  With the supply lost, an ejector has neither suction nor blow-off: air comes back through nozzle
  and silencer at any set-point. A pump that stops is closed by its own valves, until it is switched
@@ -52,17 +60,17 @@ class VacuumSource {
   void SetPumpLost(bool lost) { pump_lost_ = lost; }
   bool pump_lost() const { return pump_lost_; }
 
-  /** Mean throughput into the manifold during the step, a continuous function that never rises with
-   the manifold's pressure and is not negative at p_abs = 0. [Pa m^3/s]
-   @param p_abs Of the manifold, absolute. [Pa] */
-  double Throughput(double p_abs) const;
+  /** Throughput into the manifold at a time within the step: a continuous function that never rises
+   with the manifold's pressure and is not negative at p_abs = 0. [Pa m^3/s]
+   @param p_abs Of the manifold, absolute. [Pa] @param time Since the step's start. [s] > 0, <= h */
+  double Throughput(double p_abs, double time) const;
 
   /// Most that the source could evacuate at this pressure when on, without regard to a set-point.
   /// [Pa m^3/s] >= 0
   double Capacity(double p_abs) const;
 
   /** Whether the source, switched on, can hold the set-point against a leak: that takes out more
-   than comes in there.
+   than comes in there. A closed port takes out nothing and never can.
    @param leak Throughput into the cavity at its absolute pressure. [Pa m^3/s] */
   bool CanHold(const std::function<double(double p_abs)>& leak) const;
 
@@ -75,10 +83,10 @@ class VacuumSource {
 
  private:
   void AdvanceValve(double h);
-  void AdvanceReference(double h);
+  double ReferenceAt(double time) const;
   double VentThroughput(double p_abs) const;
-  double RegulatorThroughput(double p_abs) const;
-  double SwitchedThroughput(double p_abs) const;
+  double RegulatorThroughput(double p_abs, double time) const;
+  double SwitchedThroughput(double p_abs, double time) const;
 
   VacuumParameters parameters_;
   VacuumSourceState state_;
