@@ -193,7 +193,7 @@ void GasSuction::SolveNetwork(const AirMemory& air, double h) {
     gas_cups_[cup].compliance = compliance_[cup];
     gas_cups_[cup].linear_at = vacuum_.ambient_pressure + pressure_[cup];
   }
-  const auto source = [this](double p_abs) { return source_.Throughput(p_abs); };
+  const auto source = [this](double p_abs, double time) { return source_.Throughput(p_abs, time); };
   network_.Solve(air.gas, gas_cups_, source, source_.on(), h, &gas_);
 }
 
