@@ -50,6 +50,7 @@ CupArray MakeCupArray(const TetMesh& cup, std::vector<CupMount> mounts) {
       RepeatCavity(MakeCavitySurface(cup), cup.num_nodes(), static_cast<int>(mounts.size()));
   array.mounts = std::move(mounts);
   array.rest_M = X_MR * array.mesh.nodes;
+  array.rest_of_one = cup.nodes;
   array.nodes_per_cup = cup.num_nodes();
   return array;
 }

@@ -75,6 +75,7 @@ void Validate(const SimulatorParameters& p) {
           "regulator.default_pressure", p.regulator.default_pressure,
           "in [regulator.min_pressure, 0] [Pa]");
   RequirePositive("regulator.ramp_rate", p.regulator.ramp_rate, "[Pa/s]");
+  Validate(p.vacuum);
 }
 
 }  // namespace vacuum_gripper_sim

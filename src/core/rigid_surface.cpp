@@ -109,11 +109,22 @@ bool IsRigidMotion(const Eigen::Isometry3d& X) {
 
 void Validate(const RigidSurface& surface) {
   std::visit([&](const auto& shape) { ValidateShape(surface.name, shape); }, surface.shape);
-  if (!(std::isfinite(surface.friction) && surface.friction >= 0.0)) {
+  const auto require_not_negative = [&](const std::string& field, double value, const char* unit) {
+    if (std::isfinite(value) && value >= 0.0) return;
     std::ostringstream reason;
-    reason << "surface '" << surface.name << "': friction = " << surface.friction
-           << ", must be finite and >= 0 [-]";
+    reason << "surface '" << surface.name << "': " << field << " = " << value
+           << ", must be finite and >= 0 " << unit;
     throw std::invalid_argument(reason.str());
+  };
+  require_not_negative("friction", surface.friction, "[-]");
+  require_not_negative("roughness", surface.roughness, "[m]");
+  require_not_negative("permeance", surface.permeance, "[m/(Pa s)]");
+  for (std::size_t i = 0; i < surface.holes.size(); ++i) {
+    const std::string field = "holes[" + std::to_string(i) + "]";
+    require_not_negative(field + ".area", surface.holes[i].area, "[m^2]");
+    if (surface.holes[i].p_S.allFinite()) continue;
+    throw std::invalid_argument("surface '" + surface.name + "': " + field +
+                                ".position is not finite, must be [m]");
   }
   if (IsRigidMotion(surface.X_FS)) return;
   std::ostringstream message;

@@ -138,6 +138,14 @@ Vector3d RigidWorld::FreeDisplacement(int object, const Vector3d& p_W, const Eig
   return Displacement(object, p_W, dV, h);
 }
 
+bool RigidWorld::AnyMoves() const {
+  if (num_bodies() > 0) return true;
+  for (std::size_t i = 0; i < objects_.size(); ++i) {
+    if (!(objects_[i].X_WO.matrix() == X_WO_before_[i].matrix())) return true;
+  }
+  return false;
+}
+
 void RigidWorld::Advance(const Eigen::VectorXd& dV, double h) {
   for (int i = 0; i < num_bodies(); ++i) {
     Body& body = bodies_[static_cast<std::size_t>(i)];

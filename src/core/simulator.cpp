@@ -10,6 +10,7 @@
 #include "vacuum_gripper_sim/core/cavity_size.h"
 #include "vacuum_gripper_sim/core/contact_stage.h"
 #include "vacuum_gripper_sim/core/elastic_body.h"
+#include "vacuum_gripper_sim/core/gas_suction.h"
 #include "vacuum_gripper_sim/core/implicit_euler.h"
 #include "vacuum_gripper_sim/core/linear_solver.h"
 #include "vacuum_gripper_sim/core/misplacement.h"
@@ -61,11 +62,15 @@ class Simulator::Implementation {
         stage_(cups_.mesh, system_, &solver_, SurfaceNodes(cups_.mesh), parameters.contact),
         suction_(cups_.cavities, parameters_.seal, parameters.regulator,
                  parameters.material.young_modulus) {
+    if (parameters.vacuum.source != VacuumSourceType::kIdealRegulator) {
+      gas_suction_ = std::make_unique<GasSuction>(cups_, parameters_);
+    }
     Reset(X_WM);
   }
 
   void SetObjects(std::vector<RigidObject> objects);
   void SetObjectPose(int index, const Eigen::Isometry3d& X_WO);
+  void SetFaults(const VacuumFaults& faults);
   void Reset(const Eigen::Isometry3d& X_WM);
   void Step(const Command& command);
 
@@ -80,11 +85,14 @@ class Simulator::Implementation {
   StepResult result_;
 
  private:
+  void ClassifyAtRest();
   void FindClampedVelocityChange(const Eigen::Isometry3d& X_WM);
   bool Advance(const Command& command);
+  bool SolveSuction(const Command& command);
   std::string DescribeMisplacement() const;
   void ReportWrenches();
   void ReportContacts();
+  void ReportAir();
   void ReportCups();
   void ReportObjects(const std::vector<ObjectLoad>& loads);
 
@@ -93,6 +101,7 @@ class Simulator::Implementation {
   LinearSolver solver_;
   ContactStage stage_;
   Suction suction_;
+  std::unique_ptr<GasSuction> gas_suction_;  // instead of suction_ where the source flows
   State state_;
   State last_good_;  // that an undone step goes back to
 
@@ -108,6 +117,9 @@ void Simulator::Implementation::SetObjects(std::vector<RigidObject> objects) {
   world_.SetObjects(std::move(objects));
   free_ones_placed_ = true;
   stage_.ForgetWorld();
+  // What a grip at work knows of its cavities comes from its forces.
+  const auto touches = [](const CavityState& cavity) { return cavity.touches; };
+  if (std::none_of(state_.grip.cups.begin(), state_.grip.cups.end(), touches)) ClassifyAtRest();
   ReportObjects(std::vector<ObjectLoad>(world_.objects().size()));
 }
 
@@ -116,6 +128,18 @@ void Simulator::Implementation::SetObjectPose(int index, const Eigen::Isometry3d
   if (world_.BodyOf(index) == RigidWorld::kNone) return;  // it was moved: points keep their sides
   free_ones_placed_ = true;
   stage_.ForgetWorld();
+}
+
+void Simulator::Implementation::SetFaults(const VacuumFaults& faults) {
+  Validate(faults, cups_.mounts.size(), world_.objects().size());
+  if (gas_suction_) gas_suction_->SetFaults(faults);
+}
+
+/// By distances alone.
+void Simulator::Implementation::ClassifyAtRest() {
+  state_.grip.classification = Classify(
+      cups_.cavities, NearestDistances(world_.surfaces(), cups_.cavities.nodes, state_.x_W),
+      *parameters_.seal.open_gap);
 }
 
 void Simulator::Implementation::Reset(const Eigen::Isometry3d& X_WM) {
@@ -130,8 +154,12 @@ void Simulator::Implementation::Reset(const Eigen::Isometry3d& X_WM) {
   result_.time = time;
   result_.X_WM = X_WM;
   result_.x_W = state_.x_W;
+  ClassifyAtRest();
   result_.gap = NearestDistances(world_.surfaces(), cups_.cavities.nodes, state_.x_W);
-  result_.classification = Classify(cups_.cavities, result_.gap, *parameters_.seal.open_gap);
+  result_.classification = state_.grip.classification;
+  if (gas_suction_) {
+    state_.grip.air = gas_suction_->AtRest(state_.x_W, result_.classification.wet);
+  }
   result_.cups.assign(cups_.mounts.size(), CupResult());
   ReportCups();
   ReportObjects(std::vector<ObjectLoad>(world_.objects().size()));
@@ -211,8 +239,7 @@ bool Simulator::Implementation::Advance(const Command& command) {
   const ContactSolution& contact = solution_.contact;
   stage_.Begin(world_, state_.x_W, state_.v_W, b, dv_c_, world_.FreeImpulse(parameters_.gravity, h),
                h);
-  if (!suction_.Solve(state_.x_W, command.pressure_setpoint, h, &stage_, &state_.grip, &solution_,
-                      timings)) {
+  if (!SolveSuction(command)) {
     return fail(StepOutcome::kNonFinite, "A is not positive definite");
   }
   if (!contact.x_W.allFinite() || !contact.dv.bodies.allFinite()) {
@@ -243,6 +270,16 @@ bool Simulator::Implementation::Advance(const Command& command) {
   ReportCups();
   ReportObjects(contact.objects);
   return true;
+}
+
+bool Simulator::Implementation::SolveSuction(const Command& command) {
+  const double h = parameters_.time_step;
+  StepTimings* const timings = &result_.timings;
+  return gas_suction_
+             ? gas_suction_->Solve(state_.x_W, command.X_WM, world_, command.pressure_setpoint, h,
+                                   &stage_, &state_.grip, &solution_, timings)
+             : suction_.Solve(state_.x_W, command.pressure_setpoint, h, &stage_, &state_.grip,
+                              &solution_, timings);
 }
 
 /// Forces of the cups on their mounts: what holds the clamped nodes, turned round. See
@@ -301,8 +338,22 @@ void Simulator::Implementation::ReportContacts() {
         contact.on_objects.segment(cups_.FirstNode(cup), cups_.nodes_per_cup).sum();
     result.num_contacts = 0;
   }
+  if (gas_suction_) ReportAir();
   for (const int node : contact.contact_nodes) {
     ++result_.cups[static_cast<std::size_t>(cups_.CupOfNode(node))].num_contacts;
+  }
+}
+
+void Simulator::Implementation::ReportAir() {
+  const AirFlows& flows = gas_suction_->flows();
+  result_.manifold_pressure = flows.manifold_pressure;
+  result_.source_flow = flows.source_flow;
+  result_.gas_imbalance = flows.imbalance;
+  result_.gas_rounds = flows.rounds;
+  for (std::size_t cup = 0; cup < result_.cups.size(); ++cup) {
+    result_.cups[cup].status = flows.status[cup];
+    result_.cups[cup].leak_flow = flows.leak_flow[cup];
+    result_.cups[cup].leak_area = flows.leak_area[cup];
   }
 }
 
@@ -319,10 +370,11 @@ void Simulator::Implementation::ReportCups() {
     const CavitySize size =
         SizeOfCavity(cups_.cavities, k, result_.classification.wet, state_.x_W, area_vectors_);
     result.cavity_area = std::abs(size.area_W.dot(result.X_WC.linear().col(2)));
-    result.cavity_volume = size.volume;
+    result.cavity_volume = gas_suction_ ? state_.grip.air.volume[cup] : size.volume;
     result.zone_counts = CountZones(cups_.cavities, k, result_.classification.zones);
   }
   static_cast<GripSummary&>(result_) = SumOf(result_.cups);
+  if (!gas_suction_) result_.manifold_pressure = result_.gauge_pressure;
 }
 
 void Simulator::Implementation::ReportObjects(const std::vector<ObjectLoad>& loads) {
@@ -361,6 +413,8 @@ void Simulator::SetObjects(std::vector<RigidObject> objects) {
 const std::vector<RigidObject>& Simulator::objects() const {
   return implementation_->world_.objects();
 }
+
+void Simulator::SetFaults(const VacuumFaults& faults) { implementation_->SetFaults(faults); }
 
 void Simulator::SetObjectPose(int index, const Eigen::Isometry3d& X_WO) {
   implementation_->SetObjectPose(index, X_WO);

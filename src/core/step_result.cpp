@@ -45,6 +45,8 @@ GripSummary SumOf(const std::vector<CupResult>& cups) {
     sum.cavity_volume += cup.cavity_volume;
     sum.contact_force += cup.contact_force;
     sum.num_contacts += cup.num_contacts;
+    sum.leak_flow += cup.leak_flow;
+    sum.leak_area += cup.leak_area;
     for (std::size_t zone = 0; zone < sum.zone_counts.size(); ++zone) {
       sum.zone_counts[zone] += cup.zone_counts[zone];
     }

@@ -3,63 +3,21 @@
 #include <algorithm>
 #include <cmath>
 
-#include "vacuum_gripper_sim/core/stopwatch.h"
-
 namespace vacuum_gripper_sim {
 
 Suction::Suction(const CavitySurface& cavity, const SealParameters& seal,
                  const RegulatorParameters& regulator, double young_modulus)
-    : cavity_(&cavity),
-      edge_ways_(cavity),
-      classifier_(cavity),
-      seal_(seal),
-      regulator_(regulator),
-      young_modulus_(young_modulus) {}
-
-void Suction::ClassifyEnd(const ContactStage& stage, const ContactSolution& contact,
-                          const std::vector<bool>& was_wet, Classification* classification) {
-  // Loaded points are ordered by the depth by which an elastic half space under a patch of the
-  // point's size would be indented, p sqrt(a) / E: a length, as a gap is. Only its order decides.
-  phi_.resize(cavity_->nodes.size());
-  for (std::size_t i = 0; i < phi_.size(); ++i) {
-    const int node = cavity_->nodes[i];
-    const double force = contact.lambda(node);
-    if (force > 0.0) {
-      const double area =
-          std::max(area_vectors_.col(static_cast<Eigen::Index>(i)).norm(), 1e-12);  // [m^2]
-      phi_[i] = -force / (young_modulus_ * std::sqrt(area));
-    } else {
-      phi_[i] = contact.distance[static_cast<std::size_t>(node)];
-    }
-  }
-  classification->edge_ways =
-      edge_ways_.Find(phi_, *seal_.open_gap, contact.x_W,
-                      [&](const Eigen::Vector3d& p_W) { return stage.Distance(p_W); });
-  classifier_.Classify(phi_, *seal_.open_gap, was_wet, classification);
-}
+    : cavity_(cavity, *seal.open_gap, young_modulus), seal_(seal), regulator_(regulator) {}
 
 bool Suction::SolveOnce(ContactStage* stage, SuctionSolution* solution, StepTimings* timings) {
-  solution->load.setZero(3, num_nodes_);
-  was_wet_.assign(cavity_->nodes.size(), false);
-  for (std::size_t cup = 0; cup < pressures_.size(); ++cup) {
-    if (pressures_[cup] == 0.0) continue;
-    for (int point = cavity_->first_points[cup]; point < cavity_->first_points[cup + 1]; ++point) {
-      const auto i = static_cast<std::size_t>(point);
-      if (!wet_[i]) continue;
-      was_wet_[i] = true;
-      solution->load.col(cavity_->nodes[i]) += pressures_[cup] * area_vectors_.col(point);
-    }
-  }
-  if (!stage->Solve(solution->load, &solution->contact, timings)) return false;
-  const Stopwatch stopwatch(&timings->classification);
-  ClassifyEnd(*stage, solution->contact, was_wet_, &solution->classification);
-  return true;
+  return cavity_.Solve(pressures_, wet_, stage, solution, timings);
 }
 
 void Suction::SetWet(const std::vector<int>& cups, const Classification& classification) {
   for (const int cup : cups) {
-    const auto begin = cavity_->first_points[static_cast<std::size_t>(cup)];
-    const auto end = cavity_->first_points[static_cast<std::size_t>(cup) + 1];
+    const std::vector<int>& first_points = cavity_.cavity().first_points;
+    const int begin = first_points[static_cast<std::size_t>(cup)];
+    const int end = first_points[static_cast<std::size_t>(cup) + 1];
     std::copy(classification.wet.begin() + begin, classification.wet.begin() + end,
               wet_.begin() + begin);
   }
@@ -137,16 +95,17 @@ bool Suction::TryToSeal(const std::vector<double>& pressure, ContactStage* stage
   } while (ReleaseOpen(solution->classification, &trying));
   for (const int cup : trying) {
     const auto k = static_cast<std::size_t>(cup);
-    state->cups[k] = {true, false, pressures_[k]};
+    state->cups[k].sealed = true;
+    state->cups[k].lost = false;
+    state->cups[k].pressure = pressures_[k];
   }
   return true;
 }
 
 bool Suction::Solve(const Eigen::Matrix3Xd& x_W, double setpoint, double h, ContactStage* stage,
                     GripState* state, SuctionSolution* solution, StepTimings* timings) {
-  num_nodes_ = x_W.cols();
-  PointAreaVectors(*cavity_, x_W, &area_vectors_);
-  wet_.resize(cavity_->nodes.size());
+  cavity_.Begin(x_W);
+  wet_.resize(cavity_.cavity().nodes.size());
 
   const double largest_change = regulator_.ramp_rate * h;
   pressures_.assign(state->cups.size(), 0.0);

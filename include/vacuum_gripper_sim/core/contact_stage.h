@@ -86,6 +86,10 @@ class ContactStage {
   /// @param p_W World. [m]
   double Distance(const Eigen::Vector3d& p_W) const;
 
+  /// The surface that is nearest to a surface node at the step's start, of the world's.
+  /// @pre There is one.
+  int NearestSurface(int node) const { return finder_.NearestSurface(node); }
+
   /// Forgets the warm start, as after a step that was undone.
   void ForgetForces();
   /// Forgets what was seen of the objects, too, as when there are others or the cup is elsewhere.

@@ -16,7 +16,8 @@ struct CupArray {
   TetMesh mesh;            ///< Of all cups, in the rest frame R.
   CavitySurface cavities;  ///< Likewise.
   std::vector<CupMount> mounts;
-  Eigen::Matrix3Xd rest_M;  ///< Rest positions in the gripper's mount frame, 3 by #nodes. [m]
+  Eigen::Matrix3Xd rest_M;       ///< Rest positions in the gripper's mount frame, 3 by #nodes. [m]
+  Eigen::Matrix3Xd rest_of_one;  ///< Of the single cup in its own rest frame. [m]
   int nodes_per_cup{0};
 
   int num_cups() const { return static_cast<int>(mounts.size()); }

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "vacuum_gripper_sim/core/vacuum_parameters.h"
+
 namespace vacuum_gripper_sim {
 
 /// How stress follows from deformation; material_model.h has the equations.
@@ -92,6 +94,7 @@ struct SimulatorParameters {
   ContactParameters contact;
   SealParameters seal;
   RegulatorParameters regulator;
+  VacuumParameters vacuum;
 };
 
 /** Checks every number.

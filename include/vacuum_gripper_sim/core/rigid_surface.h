@@ -5,6 +5,7 @@
 #include <memory>
 #include <string>
 #include <variant>
+#include <vector>
 
 namespace vacuum_gripper_sim {
 
@@ -33,6 +34,12 @@ using Mesh = std::shared_ptr<const TriangleMesh>;
 
 using Shape = std::variant<Plane, Box, Sphere, Cylinder, Mesh>;
 
+/// A hole through a surface, too small to be part of its shape.
+struct SurfaceHole {
+  Eigen::Vector3d p_S{Eigen::Vector3d::Zero()};  ///< Where, in S. [m]
+  double area{0.0};                              ///< Effective orifice. [m^2] >= 0
+};
+
 /// A rigid surface in a frame F: that of the object it is fixed to, or the world where it is
 /// placed.
 struct RigidSurface {
@@ -40,6 +47,10 @@ struct RigidSurface {
   Shape shape;
   Eigen::Isometry3d X_FS{Eigen::Isometry3d::Identity()};  ///< Pose of S in F.
   double friction{0.0};                                   ///< Coulomb's mu. [-] >= 0
+  // What air finds, where the gripper's source flows.
+  double roughness{0.0};           ///< h_rms of its heights, see HydraulicGap(). [m] >= 0
+  double permeance{0.0};           ///< k / (mu L) of a porous wall, 0: tight. [m/(Pa s)] >= 0
+  std::vector<SurfaceHole> holes;  ///< Through it.
 };
 
 /// What a point sees of a surface.
@@ -65,7 +76,8 @@ bool IsRigidMotion(const Eigen::Isometry3d& X);
 
 /** Checks a surface's numbers.
  @throws std::invalid_argument naming the surface, the field, its value and what is allowed: sizes
-   finite and > 0, a mesh there, friction finite and >= 0, the pose finite and a rotation. */
+   finite and > 0, a mesh there, friction, roughness, permeance and the holes' areas finite and
+   >= 0, the holes' places finite, the pose finite and a rotation. */
 void Validate(const RigidSurface& surface);
 
 }  // namespace vacuum_gripper_sim

@@ -58,6 +58,9 @@ class RigidWorld {
   Eigen::Vector3d FreeDisplacement(int object, const Eigen::Vector3d& p_W,
                                    const Eigen::VectorXd& dV, double h) const;
 
+  /// Does any object move in this step: is one free, or put elsewhere since the last one?
+  bool AnyMoves() const;
+
   /// Ends a step: free bodies move.
   void Advance(const Eigen::VectorXd& dV, double h);
 

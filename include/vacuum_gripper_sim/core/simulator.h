@@ -10,6 +10,7 @@
 #include "vacuum_gripper_sim/core/rigid_object.h"
 #include "vacuum_gripper_sim/core/step_result.h"
 #include "vacuum_gripper_sim/core/tet_mesh.h"
+#include "vacuum_gripper_sim/core/vacuum_faults.h"
 
 namespace vacuum_gripper_sim {
 
@@ -43,6 +44,10 @@ class Simulator {
   /// @throws std::invalid_argument if the pose is not finite, std::out_of_range for an unknown
   /// index.
   void SetObjectPose(int index, const Eigen::Isometry3d& X_WO);
+
+  /// What is wrong from the next step on, all of it; the ideal regulator knows no faults.
+  /// @throws std::invalid_argument, see Validate(const VacuumFaults&).
+  void SetFaults(const VacuumFaults& faults);
 
   /** Advances the cup by one time step h.
 

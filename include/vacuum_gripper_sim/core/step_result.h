@@ -55,6 +55,7 @@ struct StepTimings {
   double classification{0.0};  ///< The classifier.
   double delassus{0.0};        ///< W = h^2 H A^-1 H^T.
   double solve{0.0};           ///< The mixed complementarity problem.
+  double air{0.0};             ///< Leaks, volumes and the gas network.
   double correction{0.0};      ///< Second half with the forces, refinement, and the wrench.
   double total{0.0};
 };
@@ -74,6 +75,9 @@ struct GripSummary {
   double contact_force{0.0};      ///< Sum of the normal forces of objects on the cup. [N]
   std::uint32_t num_contacts{0};  ///< Contacts of the cup that carry load.
   std::array<std::uint32_t, kNumZones> zone_counts{};
+  // Zero with the ideal regulator.
+  double leak_flow{0.0};  ///< Into the cavity from the ambient, as free air. [m^3/s]
+  double leak_area{0.0};  ///< Of the orifice that would leak as much. [m^2]
 };
 
 /// One of the gripper's cups.
@@ -97,10 +101,16 @@ struct StepResult : GripSummary {
   Eigen::Vector3d force_M{Eigen::Vector3d::Zero()};   ///< Of the cups on the mount, its axes. [N]
   Eigen::Vector3d torque_M{Eigen::Vector3d::Zero()};  ///< About the mount's origin, its axes. [N m]
 
-  double setpoint{0.0};             ///< [Pa]
-  std::vector<CupResult> cups;      ///< In the order of SimulatorParameters::cups.
-  double fold_force{0.0};           ///< Sum of the normal forces where cups touch themselves. [N]
-  double friction_force{0.0};       ///< Size of the tangential forces' sum. [N]
+  double setpoint{0.0};           ///< [Pa]
+  double manifold_pressure{0.0};  ///< Gauge; with the ideal regulator that of the cavities. [Pa]
+  double source_flow{0.0};        ///< That the vacuum source draws, as free air; negative: it lets
+                                  ///< in; zero with the ideal regulator. [m^3/s]
+  double gas_imbalance{0.0};      ///< Largest difference of the pressure on a cup and of its air.
+                                  ///< [Pa]
+  int gas_rounds{0};              ///< Solves of the cups that it took to balance their air.
+  std::vector<CupResult> cups;    ///< In the order of SimulatorParameters::cups.
+  double fold_force{0.0};         ///< Sum of the normal forces where cups touch themselves. [N]
+  double friction_force{0.0};     ///< Size of the tangential forces' sum. [N]
   std::uint32_t num_candidates{0};  ///< Contact constraints in the problem.
   double max_penetration{0.0};      ///< Over all free surface nodes, >= 0. [m]
 

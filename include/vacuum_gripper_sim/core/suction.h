@@ -3,34 +3,13 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "vacuum_gripper_sim/core/cavity_surface.h"
-#include "vacuum_gripper_sim/core/classifier.h"
+#include "vacuum_gripper_sim/core/cavity_stage.h"
 #include "vacuum_gripper_sim/core/contact_stage.h"
-#include "vacuum_gripper_sim/core/edge_ways.h"
+#include "vacuum_gripper_sim/core/grip_state.h"
 #include "vacuum_gripper_sim/core/parameters.h"
 #include "vacuum_gripper_sim/core/step_result.h"
 
 namespace vacuum_gripper_sim {
-
-/// What a cup's cavity remembers from one step to the next.
-struct CavityState {
-  bool sealed{false};    ///< Airtight with the regulator at work.
-  bool lost{false};      ///< Was sealed under suction in this grip and no longer is.
-  double pressure{0.0};  ///< lambda_p, gauge. [Pa]
-};
-
-/// What the gripper's cavities remember.
-struct GripState {
-  std::vector<CavityState> cups;
-  Classification classification;  ///< Of the step's end; empty before the first step.
-};
-
-/// A solved step: motion, and the cavities at its end.
-struct SuctionSolution {
-  ContactSolution contact;
-  Classification classification;
-  Eigen::Matrix3Xd load;  ///< H_p^T lambda_p, 3 by #nodes. [N]
-};
 
 /** Couples the cavities' pressures with the contacts: the mixed complementarity problem of
  [Bernardin, Sec. III-C],
@@ -67,9 +46,6 @@ class Suction {
              GripState* state, SuctionSolution* solution, StepTimings* timings);
 
  private:
-  /// Classifies the cavity at the end of a contact solution.
-  void ClassifyEnd(const ContactStage& stage, const ContactSolution& contact,
-                   const std::vector<bool>& was_wet, Classification* classification);
   /// Solves with the pressures and the wet points of the moment.
   bool SolveOnce(ContactStage* stage, SuctionSolution* solution, StepTimings* timings);
   bool HoldSeals(ContactStage* stage, GripState* state, SuctionSolution* solution,
@@ -81,19 +57,12 @@ class Suction {
   /// Lets the pressure act on what a classification found wet of some cups.
   void SetWet(const std::vector<int>& cups, const Classification& classification);
 
-  const CavitySurface* cavity_;
-  EdgeWays edge_ways_;
-  Classifier classifier_;
+  CavityStage cavity_;
   SealParameters seal_;
   RegulatorParameters regulator_;
-  double young_modulus_;
-  Eigen::Matrix3Xd area_vectors_;  // of the step's start [m^2]
-  Eigen::Index num_nodes_{0};
   // That the next solve loads: pressures of the cups [Pa], and which points of theirs.
   std::vector<double> pressures_;
   std::vector<bool> wet_;
-  std::vector<bool> was_wet_;  // those of them that see suction
-  std::vector<double> phi_;    // of the points, see Classifier [m]
 };
 
 }  // namespace vacuum_gripper_sim
