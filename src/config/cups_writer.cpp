@@ -12,7 +12,7 @@ CupsWriter::CupsWriter(const std::vector<CupMount>& cups, std::ostream* stream) 
   BeginCsv(
       "time,name,status,pressure,cavity_area,contact_force,contacts,force_x,force_y,force_z,"
       "torque_x,torque_y,torque_z,bottleneck_gap,opening_azimuth,opening_width,opening_gap,"
-      "cavity_volume",
+      "cavity_volume,leak_flow,leak_area",
       stream_);
 }
 
@@ -25,7 +25,8 @@ void CupsWriter::Write(const StepResult& result) {
     WriteVector(cup.X_WC.linear() * cup.force_C, stream_);
     WriteVector(cup.X_WC.linear() * cup.torque_C, stream_);
     *stream_ << ',' << cup.bottleneck_gap << ',' << cup.opening.azimuth << ',' << cup.opening.width
-             << ',' << cup.opening.largest_gap << ',' << cup.cavity_volume << '\n';
+             << ',' << cup.opening.largest_gap << ',' << cup.cavity_volume << ',' << cup.leak_flow
+             << ',' << cup.leak_area << '\n';
   }
 }
 

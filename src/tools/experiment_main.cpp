@@ -18,6 +18,7 @@
 #include "vacuum_gripper_sim/config/objects_writer.h"
 #include "vacuum_gripper_sim/config/package_paths.h"
 #include "vacuum_gripper_sim/config/scenario.h"
+#include "vacuum_gripper_sim/config/sensor_writer.h"
 #include "vacuum_gripper_sim/config/timeseries_writer.h"
 #include "vacuum_gripper_sim/config/vtu_writer.h"
 
@@ -39,8 +40,10 @@ constexpr char kUsage[] =
     "                    cup=a30, timeline.2.time=0.8; repeatable, applied in order; paths are\n"
     "                    relative to the scenario's file\n"
     "  --out DIR         writes timeseries.csv, summary.yaml, final.vtu, objects.csv if objects\n"
-    "                    move and cups.csv if there are several cups, into DIR (made if it is\n"
-    "                    missing); without it nothing is written\n"
+    "                    move, cups.csv of several cups, and sensor.csv of another source than\n"
+    "                    the ideal regulator, into DIR (made if it is missing); without it "
+    "nothing\n"
+    "                    is written\n"
     "  --quiet           prints errors only\n"
     "  --help            prints this\n"
     "\n"
@@ -112,19 +115,27 @@ class Outputs {
       Open(directory / "cups.csv", &cups_);
       cups_writer_.emplace(scenario.parameters.cups, &cups_);
     }
+    const VacuumParameters& vacuum = scenario.parameters.vacuum;
+    if (vacuum.source != VacuumSourceType::kIdealRegulator) {
+      Open(directory / "sensor.csv", &sensor_);
+      sensor_writer_.emplace(scenario.sensor, vacuum.ambient_pressure, &sensor_);
+    }
   }
 
-  void Write(const StepResult& result) {
+  void Write(const Scenario& scenario, const StepResult& result) {
     writer_->Write(result);
     if (objects_writer_) objects_writer_->Write(result);
     if (cups_writer_) cups_writer_->Write(result);
+    if (sensor_writer_) {
+      sensor_writer_->Write(result, scenario.FaultsAt(result.time).sensor_stuck());
+    }
   }
 
   void Finish(const Scenario& scenario, const ExperimentOutcome& outcome,
               const Simulator& simulator) {
     WriteSummary(outcome.summary, scenario.name, &summary_);
     WriteVtu(simulator.cups(), simulator.result(), &grid_);
-    for (std::ofstream* file : {&timeseries_, &summary_, &grid_, &objects_, &cups_}) {
+    for (std::ofstream* file : {&timeseries_, &summary_, &grid_, &objects_, &cups_, &sensor_}) {
       if (!file->is_open()) continue;  // not asked for
       file->close();
       if (!*file) throw std::runtime_error("--out: the files could not be written (disk full?)");
@@ -137,10 +148,11 @@ class Outputs {
     if (!*file) throw std::invalid_argument("--out: " + path.string() + " cannot be written");
   }
 
-  std::ofstream timeseries_, summary_, grid_, objects_, cups_;
+  std::ofstream timeseries_, summary_, grid_, objects_, cups_, sensor_;
   std::optional<TimeseriesWriter> writer_;
   std::optional<ObjectsWriter> objects_writer_;
   std::optional<CupsWriter> cups_writer_;
+  std::optional<SensorWriter> sensor_writer_;
 };
 
 /// About ten lines a run, at most one each 0.1 s of simulated time.
@@ -191,7 +203,7 @@ int Run(const Arguments& arguments) {
   Progress progress(scenario.duration);
   const ExperimentOutcome outcome =
       RunExperiment(scenario, &simulator, [&](const StepResult& result) {
-        if (outputs) outputs->Write(result);
+        if (outputs) outputs->Write(scenario, result);
         if (!arguments.quiet) progress.Report(result);
       });
   if (outputs) outputs->Finish(scenario, outcome, simulator);

@@ -155,6 +155,8 @@ TEST(CupsWriter, ARowForEveryCup) {
   left.bottleneck_gap = 10.0;
   left.opening = {11.0, 12.0, 13.0};
   left.cavity_volume = 14.0;
+  left.leak_flow = 15.0;
+  left.leak_area = 16.0;
   writer.Write(result);
 
   std::istringstream lines(text.str());
@@ -162,8 +164,8 @@ TEST(CupsWriter, ARowForEveryCup) {
   std::getline(lines, header);
   std::getline(lines, first);
   std::getline(lines, second);
-  EXPECT_EQ(Split(header).size(), 18U);
-  EXPECT_EQ(first, "1234.5,left,4,-6000.5,1,2,3,4,-5,-6,7,-8,-9,10,11,12,13,14");
+  EXPECT_EQ(Split(header).size(), 20U);
+  EXPECT_EQ(first, "1234.5,left,4,-6000.5,1,2,3,4,-5,-6,7,-8,-9,10,11,12,13,14,15,16");
   EXPECT_EQ(second.substr(0, 13), "1234.5,right,");
 }
 
