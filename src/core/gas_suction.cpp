@@ -263,6 +263,7 @@ SealStatus GasSuction::StatusOf(std::size_t cup, double setpoint, bool can_hold,
       is_passive ? kPassiveHolds : std::min(kHoldingPart * setpoint, -kReached);
   const bool has_vacuum = cavity->pressure <= vacuum_to_hold;
   if (!is_on) cavity->lost = false;
+  if (is_passive && airtight && cavity->pressure >= 0.0) cavity->lost = false;  // pressed anew
   if (is_on && has_vacuum && (airtight || cavity->sealed)) {
     cavity->sealed = true;
     cavity->lost = false;

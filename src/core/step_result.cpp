@@ -35,7 +35,8 @@ GripSummary SumOf(const std::vector<CupResult>& cups) {
   }
   bool first = true;
   for (const CupResult& cup : cups) {
-    sum.gauge_pressure = std::min(sum.gauge_pressure, cup.gauge_pressure);
+    sum.gauge_pressure =
+        first ? cup.gauge_pressure : std::min(sum.gauge_pressure, cup.gauge_pressure);
     if (first || cup.bottleneck_gap > sum.bottleneck_gap) {
       sum.bottleneck_gap = cup.bottleneck_gap;
       sum.opening = cup.opening;
