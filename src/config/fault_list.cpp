@@ -39,7 +39,10 @@ void RequireNumber(bool allowed, const char* field, double value, const std::str
 /// Which of the names a target means.
 std::size_t FindTarget(const std::string& target, const std::vector<std::string>& names,
                        const std::string& kind) {
-  if (target.empty() && names.size() == 1) return 0;
+  if (names.size() == 1 && (target.empty() || target == names.front())) return 0;
+  if (names.size() == 1 && names.front().empty()) {
+    Refuse("target", "'" + target + "'", "none, there is only one");
+  }
   const auto found = std::find(names.begin(), names.end(), target);
   if (target.empty() || found == names.end()) {
     Refuse("target", "'" + target + "'", "the name of " + kind + " (" + Join(names) + ")");
@@ -52,24 +55,35 @@ std::string Call(const std::string& kind, const std::string& name) {
   return name.empty() ? "the " + kind : kind + " " + name;
 }
 
-void SetDirt(const FaultCommand& command, std::vector<DirtSector>* dirt) {
-  if (!command.active) {
-    dirt->clear();
-    return;
-  }
+void AddDirt(const FaultCommand& command, std::vector<DirtSector>* dirt) {
   RequireNumber(command.value > 0.0, "value", command.value, "the gap, more than 0 [m]");
   RequireNumber(std::abs(command.azimuth) <= 2.0 * M_PI, "azimuth", command.azimuth,
                 "-2 pi to 2 pi [rad]");
   RequireNumber(command.width > 0.0 && command.width <= 2.0 * M_PI, "width", command.width,
                 "more than 0, at most 2 pi [rad]");
-  const auto same = std::find_if(dirt->begin(), dirt->end(), [&](const DirtSector& sector) {
-    return sector.azimuth == command.azimuth;
-  });
   const DirtSector sector{command.azimuth, command.width, command.value};
+  const auto same = std::find_if(dirt->begin(), dirt->end(), [&](const DirtSector& there) {
+    return there.azimuth == command.azimuth;
+  });
   if (same == dirt->end()) {
     dirt->push_back(sector);
   } else {
     *same = sector;
+  }
+}
+
+/// What can break of a cup: kinked hose, torn cup or dirty lip.
+void Break(const FaultCommand& command, CupFaults* cup) {
+  if (command.fault == "hose_kinked") {
+    RequireNumber(command.value >= 0.0 && command.value <= 1.0, "value", command.value,
+                  "the part of the hose's area that is left, 0 to 1 [-]");
+    cup->hose_opening = command.value;
+  } else if (command.fault == "cup_torn") {
+    RequireNumber(command.value > 0.0, "value", command.value,
+                  "the hole's effective orifice, more than 0 [m^2]");
+    cup->torn_area = command.value;
+  } else {
+    AddDirt(command, &cup->dirt);
   }
 }
 
@@ -119,9 +133,11 @@ std::vector<FaultEvent> ReadFaultEvents(const YAML::Node& node, const std::strin
   return events;
 }
 
-FaultList::FaultList(std::vector<std::string> cups, std::vector<std::string> objects,
-                     bool air_flows)
-    : cups_(std::move(cups)), objects_(std::move(objects)), air_flows_(air_flows) {
+FaultList::FaultList(const SimulatorParameters& gripper, std::vector<std::string> objects)
+    : objects_(std::move(objects)),
+      air_flows_(gripper.vacuum.source != VacuumSourceType::kIdealRegulator) {
+  cups_.reserve(gripper.cups.size());
+  for (const CupMount& cup : gripper.cups) cups_.push_back(cup.name);
   faults_.cups.resize(cups_.size());
 }
 
@@ -147,25 +163,23 @@ std::string FaultList::Apply(const FaultCommand& command) {
 std::string FaultList::ApplyToCup(const FaultCommand& command) {
   const std::size_t index = FindTarget(command.target, cups_, "a cup");
   CupFaults& cup = faults_.cups[index];
-  if (command.fault == "hose_kinked") {
-    RequireNumber(!command.active || (command.value >= 0.0 && command.value <= 1.0), "value",
-                  command.value, "the part of the hose's area that is left, 0 to 1 [-]");
-    cup.hose_opening = command.active ? command.value : CupFaults().hose_opening;
+  if (command.active) {
+    Break(command, &cup);
+  } else if (command.fault == "hose_kinked") {
+    cup.hose_opening = CupFaults().hose_opening;
   } else if (command.fault == "cup_torn") {
-    RequireNumber(!command.active || command.value > 0.0, "value", command.value,
-                  "the hole's effective orifice, more than 0 [m^2]");
-    cup.torn_area = command.active ? command.value : CupFaults().torn_area;
+    cup.torn_area = CupFaults().torn_area;
   } else {
-    SetDirt(command, &cup.dirt);
+    cup.dirt.clear();
   }
   return command.fault + (command.active ? " at " : " mended at ") + Call("cup", cups_[index]);
 }
 
 std::string FaultList::ApplyToObject(const FaultCommand& command) {
   const std::string& name = objects_[FindTarget(command.target, objects_, "an object")];
-  RequireNumber(!command.active || command.value > 0.0, "value", command.value,
-                "the permeance, more than 0 [m/(Pa s)]");
   if (command.active) {
+    RequireNumber(command.value > 0.0, "value", command.value,
+                  "the permeance, more than 0 [m/(Pa s)]");
     permeances_[name] = command.value;
   } else {
     permeances_.erase(name);

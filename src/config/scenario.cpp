@@ -168,13 +168,10 @@ bool Scenario::HasMovingObjects() const {
 }
 
 FaultList Scenario::FaultsAt(double time) const {
-  std::vector<std::string> cups, names;
-  cups.reserve(parameters.cups.size());
-  for (const CupMount& mount : parameters.cups) cups.push_back(mount.name);
+  std::vector<std::string> names;
   names.reserve(objects.size());
   for (const RigidObject& object : objects) names.push_back(object.name);
-  FaultList list(std::move(cups), std::move(names),
-                 parameters.vacuum.source != VacuumSourceType::kIdealRegulator);
+  FaultList list(parameters, std::move(names));
   // The slack forgives times of steps their rounding.
   for (const FaultEvent& event : faults) {
     if (event.time <= time + 1e-9) list.Apply(event.command);

@@ -59,6 +59,8 @@ SealState ToSealState(const GripSummary& grip, double setpoint, const std_msgs::
   message.opening_azimuth = grip.opening.azimuth;
   message.opening_width = grip.opening.width;
   message.opening_gap = grip.opening.largest_gap;
+  message.leak_flow = grip.leak_flow;
+  message.leak_area = grip.leak_area;
   return message;
 }
 
@@ -68,6 +70,20 @@ sensor_msgs::FluidPressure ToFluidPressure(const GripSummary& grip, double ambie
   message.header = header;
   message.fluid_pressure = ambient_pressure + grip.gauge_pressure;
   message.variance = 0.0;
+  return message;
+}
+
+VacuumState ToVacuumState(const VacuumReading& reading, double ambient_pressure,
+                          const std_msgs::Header& header) {
+  VacuumState message;
+  message.header = header;
+  message.in_control_range = reading.in_control_range;
+  message.part_present = reading.part_present;
+  message.part_detached = reading.part_detached;
+  message.actual_power = reading.actual_power;
+  message.absolute_pressure = reading.absolute_pressure;
+  message.gauge_pressure = reading.absolute_pressure - ambient_pressure;
+  message.flow = reading.flow;
   return message;
 }
 

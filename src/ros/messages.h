@@ -7,6 +7,7 @@
 #include <std_msgs/Header.h>
 #include <vacuum_gripper_sim/ContactWrenches.h>
 #include <vacuum_gripper_sim/SealState.h>
+#include <vacuum_gripper_sim/VacuumState.h>
 
 #include <cstdint>
 #include <string>
@@ -15,6 +16,7 @@
 #include "vacuum_gripper_sim/core/cavity_surface.h"
 #include "vacuum_gripper_sim/core/rigid_object.h"
 #include "vacuum_gripper_sim/core/step_result.h"
+#include "vacuum_gripper_sim/core/vacuum_sensor.h"
 
 namespace vacuum_gripper_sim {
 
@@ -34,6 +36,10 @@ SealState ToSealState(const GripSummary& grip, double setpoint, const std_msgs::
 /// Absolute pressure in the cavity. @param ambient_pressure [Pa] @param header Of the grip's frame.
 sensor_msgs::FluidPressure ToFluidPressure(const GripSummary& grip, double ambient_pressure,
                                            const std_msgs::Header& header);
+
+/// @param ambient_pressure [Pa] @param header Stamped when it was sampled, of `cup_frame`.
+VacuumState ToVacuumState(const VacuumReading& reading, double ambient_pressure,
+                          const std_msgs::Header& header);
 
 /// The classified points of the inner surface: x y z rgb gap zone. @param header Of `world_frame`.
 sensor_msgs::PointCloud2 ToPointCloud(const StepResult& result, const CavitySurface& cavity,

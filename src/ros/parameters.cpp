@@ -3,11 +3,13 @@
 #include <cstdio>
 #include <sstream>
 #include <stdexcept>
+#include <utility>
 
 #include "vacuum_gripper_sim/config/package_paths.h"
 #include "vacuum_gripper_sim/config/parameter_reader.h"
 #include "vacuum_gripper_sim/config/simulator_config.h"
 #include "vacuum_gripper_sim/config/surface_list.h"
+#include "vacuum_gripper_sim/config/vacuum_config.h"
 
 namespace vacuum_gripper_sim {
 namespace {
@@ -21,7 +23,7 @@ std::string Format(double value) {
 // Everything the parameter file sets must be set: a default hidden in the code would turn a config
 // that failed to load into a gripper that runs with other numbers than its owner believes.
 struct Required {
-  const char* section;  // Empty: top level.
+  const char* section;  // Dotted; empty: top level.
   const char* key;
 };
 constexpr Required kRequired[] = {
@@ -55,12 +57,58 @@ constexpr Required kRequired[] = {
     {"linear_solver", "tolerance"},
     {"linear_solver", "max_iterations"},
     {"linear_solver", "refactor_interval"},
+    {"vacuum", "source"},
+    {"vacuum", "manifold_volume"},
+    {"vacuum.regulator", "time_constant"},
+    {"vacuum.regulator", "rate_limit"},
+    {"vacuum.regulator", "supply_flow"},
+    {"vacuum.ejector", "free_flow"},
+    {"vacuum.ejector", "ultimate_vacuum"},
+    {"vacuum.pump", "free_flow"},
+    {"vacuum.pump", "ultimate_vacuum"},
+    {"vacuum.valve", "on_delay"},
+    {"vacuum.valve", "off_delay"},
+    {"vacuum.valve", "blow_off_duration"},
+    {"vacuum.valve", "blow_off_flow"},
+    {"vacuum.valve", "vent_area"},
+    {"vacuum.line", "dead_volume"},
+    {"vacuum.line", "hose_area"},
+    {"vacuum.line", "check_valve"},
+    {"vacuum.sensor", "rate"},
+    {"vacuum.sensor", "delay"},
+    {"vacuum.sensor", "pressure_noise"},
+    {"vacuum.sensor", "flow_noise"},
+    {"vacuum.sensor", "pressure_resolution"},
+    {"vacuum.sensor", "range_min"},
+    {"vacuum.sensor", "range_max"},
+    {"vacuum.sensor", "seed"},
+    {"vacuum.sensor", "part_present_level"},
+    {"vacuum.sensor", "part_detached_level"},
+    {"vacuum.sensor", "hysteresis"},
+    {"vacuum.sensor", "hold_time"},
 };
+
+/// The node below a dotted path; what is there of the way to it if it is no map. Null: nothing.
+YAML::Node FindSection(const YAML::Node& root, const std::string& path) {
+  YAML::Node node;
+  node.reset(root);
+  std::istringstream keys(path);
+  for (std::string key; std::getline(keys, key, '.');) {
+    if (!node.IsMap()) break;
+    const YAML::Node below = std::as_const(node)[key];
+    if (!below.IsDefined()) return YAML::Node();
+    node.reset(below);
+  }
+  return node;
+}
 
 void CheckAllSet(const YAML::Node& root) {
   for (const Required& required : kRequired) {
     const std::string section = required.section;
-    const YAML::Node parent = section.empty() ? root : root[section];
+    // Of a gripper that says nothing of its vacuum system it is the ideal regulator, which needs
+    // none of these numbers.
+    if (section.compare(0, 6, "vacuum") == 0 && !root["vacuum"].IsDefined()) continue;
+    const YAML::Node parent = FindSection(root, section);
     const std::string name = section.empty() ? required.key : section + "." + required.key;
     if (parent.IsDefined() && !parent.IsNull() && !parent.IsMap()) {
       continue;  // Of the wrong type: the reader says so, with the value.
@@ -106,11 +154,12 @@ void CheckConsistency(const NodeParameters& parameters) {
     throw std::invalid_argument("parameter cup_frame = '" + cup_frame +
                                 "' must be another frame than world_frame");
   }
-  if (parameters.simulator.regulator.min_pressure < -parameters.ambient_pressure) {
+  const double ambient_pressure = parameters.simulator.vacuum.ambient_pressure;
+  if (parameters.simulator.regulator.min_pressure < -ambient_pressure) {
     throw std::invalid_argument("parameter regulator.min_pressure = " +
                                 Format(parameters.simulator.regulator.min_pressure) +
-                                " must be >= -ambient_pressure = " +
-                                Format(-parameters.ambient_pressure) + ", a perfect vacuum");
+                                " must be >= -ambient_pressure = " + Format(-ambient_pressure) +
+                                ", a perfect vacuum");
   }
 }
 
@@ -188,7 +237,7 @@ NodeParameters ReadNodeParameters(const YAML::Node& node, const std::string& cup
     parameters.mount_frame = GetFrame(&reader, "mount_frame");
   }
   parameters.display_rate = GetPositive(&reader, "display_rate", 1.0e+3);
-  parameters.ambient_pressure = GetPositive(&reader, "ambient_pressure", 1.0e+8);
+  GetPositive(&reader, "ambient_pressure", 1.0e+8);
   parameters.X_WM.translation() = reader.GetVector3("initial_position");
   parameters.X_WM.linear() =
       reader.GetRotation("initial_rotation", Eigen::Quaterniond::Identity()).toRotationMatrix();
@@ -198,6 +247,11 @@ NodeParameters ReadNodeParameters(const YAML::Node& node, const std::string& cup
   parameters.cup = ReadCup(reader.GetNode("cup"), cup_directory, cup_directory);
   parameters.simulator = ReadSimulatorParameters(&reader);
   parameters.simulator.time_step = 1.0 / parameters.rate;
+  const VacuumSystem vacuum = ReadVacuumSystem(&reader);
+  parameters.simulator.vacuum = vacuum.parameters;
+  parameters.sensor = vacuum.sensor;
+  const YAML::Node faults = reader.GetNode("faults");
+  if (reader.Has("faults")) parameters.faults = ReadFaults(faults, reader.Name("faults"));
   parameters.simulator.material = parameters.cup.material;
   parameters.simulator.damping = parameters.cup.damping;
   if (reader.Has("scene_description")) {

@@ -6,10 +6,13 @@
 
 #include <Eigen/Geometry>
 #include <string>
+#include <vector>
 
 #include "actuator.h"
 #include "vacuum_gripper_sim/config/cup_file.h"
+#include "vacuum_gripper_sim/config/fault_list.h"
 #include "vacuum_gripper_sim/core/parameters.h"
+#include "vacuum_gripper_sim/core/vacuum_sensor.h"
 
 namespace vacuum_gripper_sim {
 
@@ -25,13 +28,14 @@ struct NodeParameters {
   std::string mount_frame;        ///< tf frame that the mount follows with kTf.
   double display_rate{0.0};       ///< Of `~markers` and `~surface_points`. [Hz] > 0
   double diagnostic_period{0.0};  ///< Of /diagnostics. [s] > 0
-  double ambient_pressure{0.0};   ///< Absolute. [Pa] > 0
   Eigen::Isometry3d X_WM{Eigen::Isometry3d::Identity()};  ///< Initial pose of the mount.
   MotionLimits motion_limits;
   Cup cup;
   SimulatorParameters simulator;  ///< Complete: the cup's material and h = 1 / rate filled in.
-  std::string scene_description;  ///< URDF; empty: a plane.
-  double friction{0.0};           ///< Coulomb's mu of surfaces that do not say. [-] >= 0
+  VacuumSensorParameters sensor;
+  std::vector<FaultCommand> faults;  ///< From the start on.
+  std::string scene_description;     ///< URDF; empty: a plane.
+  double friction{0.0};              ///< Coulomb's mu of surfaces that do not say. [-] >= 0
 };
 
 /** Turns a parameter server's value into YAML, so that one strict reader serves node and tools.

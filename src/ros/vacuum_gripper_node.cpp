@@ -28,6 +28,9 @@ VacuumGripperNode::VacuumGripperNode(const ros::NodeHandle& private_nh)
       simulator_(ReadGmsh(parameters_.cup.mesh_file), parameters_.simulator, parameters_.X_WM),
       actuator_(parameters_.X_WM, parameters_.motion_limits, parameters_.simulator.time_step),
       world_(parameters_.scene_description, parameters_.world_frame, parameters_.friction),
+      faults_(private_nh, parameters_.faults, FaultList(parameters_.simulator, world_.names())),
+      vacuum_state_(private_nh, parameters_.sensor, parameters_.simulator.vacuum.ambient_pressure,
+                    parameters_.cup_frame),
       painter_(simulator_.mesh(), simulator_.cavity()),
       schedule_(parameters_.simulator.time_step, ros::Time::isSimTime()),
       diagnostics_(parameters_.cup.name, parameters_.diagnostic_period,
@@ -63,6 +66,8 @@ void VacuumGripperNode::AdvertiseAndSubscribe() {
   }
   on_server_ = nh_.advertiseService("on", &VacuumGripperNode::OnOn, this);
   off_server_ = nh_.advertiseService("off", &VacuumGripperNode::OnOff, this);
+  grip_server_ = nh_.advertiseService("grip", &VacuumGripperNode::OnGrip, this);
+  drop_server_ = nh_.advertiseService("drop", &VacuumGripperNode::OnDrop, this);
   reset_server_ = nh_.advertiseService("reset", &VacuumGripperNode::OnReset, this);
 }
 
@@ -101,6 +106,7 @@ void VacuumGripperNode::Step(const ros::Time& stamp) {
   const ros::WallTime begin = ros::WallTime::now();
   world_.Update(tf_buffer_, &simulator_);
   if (parameters_.actuator == ActuatorSource::kTf) FollowMountFrame();
+  faults_.Update(&simulator_);
 
   Command command;
   command.X_WM = actuator_.NextPose();
@@ -202,6 +208,36 @@ bool VacuumGripperNode::OnOff(std_srvs::Empty::Request&, std_srvs::Empty::Respon
   return true;
 }
 
+bool VacuumGripperNode::OnGrip(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
+  const VacuumSourceType source = parameters_.simulator.vacuum.source;
+  if (source == VacuumSourceType::kPassive || source == VacuumSourceType::kVented) {
+    response.message = "refused: vacuum/source is passive or vented, there is nothing to switch on";
+    response.success = false;
+    return true;
+  }
+  SetSetpoint(parameters_.simulator.regulator.default_pressure);
+  std::ostringstream message;
+  message << "suction on, set-point " << setpoint_ << " Pa";
+  response.message = message.str();
+  response.success = true;
+  return true;
+}
+
+bool VacuumGripperNode::OnDrop(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
+  SetSetpoint(0.0);
+  const VacuumParameters& vacuum = parameters_.simulator.vacuum;
+  const bool has_valve =
+      vacuum.source == VacuumSourceType::kEjector || vacuum.source == VacuumSourceType::kPump;
+  std::ostringstream message;
+  message << "suction off";
+  if (has_valve && vacuum.valve.blow_off_duration > 0.0) {
+    message << ", blow-off for " << vacuum.valve.blow_off_duration << " s";
+  }
+  response.message = message.str();
+  response.success = true;
+  return true;
+}
+
 bool VacuumGripperNode::OnReset(std_srvs::Trigger::Request&,
                                 std_srvs::Trigger::Response& response) {
   Reset();
@@ -224,6 +260,7 @@ void VacuumGripperNode::Reset() {
   actuator_.JumpToTarget();
   world_.Reset(&simulator_);
   simulator_.Reset(actuator_.target());
+  vacuum_state_.Reset();
   PublishState(ros::Time::now(), simulator_.result());
 }
 
@@ -238,13 +275,15 @@ void VacuumGripperNode::Publish(const ros::Time& stamp, const StepResult& result
     transforms.push_back(ToTransform(result.X_WM, parameters_.cup_frame, world_header));
   }
   if (!transforms.empty()) tf_broadcaster_.sendTransform(transforms);
+  const double ambient_pressure = parameters_.simulator.vacuum.ambient_pressure;
   contact_wrenches_publisher_.publish(
       ToContactWrenches(result, simulator_.objects(), world_header));
   wrench_publisher_.publish(ToWrench(result.force_M, result.torque_M, cup_header));
-  pressure_publisher_.publish(ToFluidPressure(result, parameters_.ambient_pressure, cup_header));
+  pressure_publisher_.publish(ToFluidPressure(result, ambient_pressure, cup_header));
   for (std::size_t i = 0; i < cup_publishers_.size(); ++i) {
-    cup_publishers_[i].PublishForces(stamp, result.cups[i], parameters_.ambient_pressure);
+    cup_publishers_[i].PublishForces(stamp, result.cups[i], ambient_pressure);
   }
+  vacuum_state_.OnStep(stamp, result, faults_.sensor_stuck());
   PublishState(stamp, result);
   PublishDisplay(world_header, result);
 }

@@ -15,11 +15,13 @@
 #include "actuator.h"
 #include "cup_publisher.h"
 #include "diagnostics.h"
+#include "fault_server.h"
 #include "markers.h"
 #include "parameters.h"
 #include "step_schedule.h"
 #include "throttle.h"
 #include "vacuum_gripper_sim/core/simulator.h"
+#include "vacuum_state_publisher.h"
 #include "world.h"
 
 namespace vacuum_gripper_sim {
@@ -45,6 +47,8 @@ class VacuumGripperNode {
   void OnPoseCommand(const geometry_msgs::PoseStamped& message);
   bool OnOn(std_srvs::Empty::Request&, std_srvs::Empty::Response&);
   bool OnOff(std_srvs::Empty::Request&, std_srvs::Empty::Response&);
+  bool OnGrip(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response);
+  bool OnDrop(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response);
   bool OnReset(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response);
 
   void SetSetpoint(double gauge_pressure);
@@ -62,6 +66,8 @@ class VacuumGripperNode {
   Simulator simulator_;
   Actuator actuator_;
   World world_;
+  FaultServer faults_;
+  VacuumStatePublisher vacuum_state_;
   MarkerPainter painter_;
   StepSchedule schedule_;
   Diagnostics diagnostics_;
@@ -82,7 +88,7 @@ class VacuumGripperNode {
   ros::Publisher wrench_publisher_, contact_wrenches_publisher_, seal_publisher_,
       pressure_publisher_, points_publisher_, markers_publisher_, grasping_publisher_;
   std::vector<CupPublisher> cup_publishers_;  // Of cups with names, all or none.
-  ros::ServiceServer on_server_, off_server_, reset_server_;
+  ros::ServiceServer on_server_, off_server_, grip_server_, drop_server_, reset_server_;
 };
 
 }  // namespace vacuum_gripper_sim

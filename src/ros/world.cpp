@@ -35,6 +35,13 @@ World::World(const std::string& scene_description, const std::string& world_fram
   }
 }
 
+std::vector<std::string> World::names() const {
+  std::vector<std::string> names;
+  names.reserve(links_.size());
+  for (const PlacedLink& placed : links_) names.push_back(placed.link.object.name);
+  return names;
+}
+
 void World::Update(const tf2_ros::Buffer& tf, Simulator* simulator) {
   std::vector<bool> were_known;
   for (const PlacedLink& placed : links_) were_known.push_back(placed.known);

@@ -27,6 +27,9 @@ class World {
       @throws std::invalid_argument, see ReadSceneLinks(). */
   World(const std::string& scene_description, const std::string& world_frame, double friction);
 
+  /// Names of all links with something to touch, whether tf knows them or not.
+  std::vector<std::string> names() const;
+
   /// Looks the links up, lets new ones in and moves the fixed ones in the simulator.
   void Update(const tf2_ros::Buffer& tf, Simulator* simulator);
   /// Puts free objects back where they began, at rest.

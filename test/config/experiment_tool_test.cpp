@@ -85,6 +85,27 @@ TEST_F(ExperimentTool, SeveralCupsHaveAFileOfTheirOwn) {
   EXPECT_FALSE(fs::exists(directory_.path() + "/one/cups.csv"));
 }
 
+TEST_F(ExperimentTool, AFlowingSourceHasASensorAndFaults) {
+  directory_.Write("hover.yaml",
+                   kHover + std::string(R"(vacuum: {source: pump, sensor: {delay: 0.0}}
+faults:
+  - {time: 0.02, fault: sensor_stuck}
+  - {time: 0.04, fault: sensor_stuck, active: false}
+)"));
+  ASSERT_EQ(Run("hover.yaml --out pump"), 0) << stderr_;
+  // Of five samples those at 0.02 and 0.03 are missing.
+  const std::string rows = ReadText(directory_.path() + "/pump/sensor.csv");
+  EXPECT_EQ(Lines(rows), 1 + 3) << rows;
+  EXPECT_TRUE(Contains(rows, "\n0.04,"));
+  ExpectRefusal("hover.yaml --set faults.1.fault=cup_torn --set faults.1.active=true",
+                "faults.1.value = 0");
+  ExpectRefusal("hover.yaml --set vacuum.source=ideal_regulator --set faults.1.fault=pump_lost",
+                "faults.1.fault = pump_lost");
+  directory_.Write("hover.yaml", kHover);
+  ASSERT_EQ(Run("hover.yaml --out ideal"), 0) << stderr_;
+  EXPECT_FALSE(fs::exists(directory_.path() + "/ideal/sensor.csv"));
+}
+
 TEST_F(ExperimentTool, QuietPrintsNothingAndHelpPrintsTheUsage) {
   directory_.Write("hover.yaml", kHover);
   EXPECT_EQ(Run("hover.yaml --quiet --set duration=0.01"), 0);

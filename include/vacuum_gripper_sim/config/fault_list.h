@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "vacuum_gripper_sim/config/parameter_reader.h"
+#include "vacuum_gripper_sim/core/parameters.h"
 #include "vacuum_gripper_sim/core/rigid_object.h"
 #include "vacuum_gripper_sim/core/vacuum_faults.h"
 
@@ -45,10 +46,8 @@ std::vector<FaultEvent> ReadFaultEvents(const YAML::Node& node, const std::strin
  dirt at any number of azimuths. */
 class FaultList {
  public:
-  /** @param cups    Names; that of a single cup may be empty.
-      @param objects Names of all that there may ever be.
-      @param air_flows False with the ideal regulator, whose pressure no fault changes. */
-  FaultList(std::vector<std::string> cups, std::vector<std::string> objects, bool air_flows);
+  /// @param gripper Its cups and source. @param objects Names of all that there may ever be.
+  FaultList(const SimulatorParameters& gripper, std::vector<std::string> objects);
 
   /** Breaks or mends.
    @returns what it did, in a sentence.
@@ -68,8 +67,8 @@ class FaultList {
 
   std::vector<std::string> cups_;
   std::vector<std::string> objects_;
-  bool air_flows_;
-  VacuumFaults faults_;                       // without permeances
+  bool air_flows_;       // False with the ideal regulator, whose pressure no fault changes.
+  VacuumFaults faults_;  // without permeances
   std::map<std::string, double> permeances_;  // by object [m/(Pa s)]
 };
 
