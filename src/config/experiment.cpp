@@ -24,12 +24,19 @@ ExperimentOutcome RunExperiment(const Scenario& scenario, Simulator* simulator,
   double end = std::numeric_limits<double>::infinity();
   bool over = false;
   const int num_steps = scenario.num_steps();
+  auto fault = scenario.faults.begin();
   for (int step = 1; step <= num_steps && !outcome.stopped_early && !over; ++step) {
     const StepResult* result = nullptr;
     try {
       // A command is where the mount shall be at the end of the step; likewise the objects.
       for (const ObjectMotion& motion : scenario.motions) {
         simulator->SetObjectPose(motion.object, PoseAt(motion.keyframes, h * step));
+      }
+      // They act from the first step on that begins when it is their time.
+      const double now = h * (step - 1);
+      if (fault != scenario.faults.end() && fault->time <= now + 1e-9) {
+        simulator->SetFaults(scenario.FaultsAt(now).ToFaults(simulator->objects()));
+        while (fault != scenario.faults.end() && fault->time <= now + 1e-9) ++fault;
       }
       result = &simulator->Step(CommandAt(scenario.timeline, h * step));
     } catch (const std::exception& e) {

@@ -1,38 +1,17 @@
 #include "vacuum_gripper_sim/config/objects_writer.h"
 
 #include <cstddef>
-#include <locale>
+
+#include "csv_text.h"
 
 namespace vacuum_gripper_sim {
-namespace {
-
-constexpr int kDigits = 12;
-
-/// A field as RFC 4180 has it.
-std::string Field(const std::string& text) {
-  if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
-  std::string field = "\"";
-  for (const char c : text) {
-    if (c == '"') field += c;
-    field += c;
-  }
-  return field + '"';
-}
-
-void WriteVector(const Eigen::Vector3d& v, std::ostream* stream) {
-  *stream << ',' << v.x() << ',' << v.y() << ',' << v.z();
-}
-
-}  // namespace
-
 ObjectsWriter::ObjectsWriter(const std::vector<RigidObject>& objects, std::ostream* stream)
     : stream_(stream) {
-  for (const RigidObject& object : objects) names_.push_back(Field(object.name));
-  stream_->imbue(std::locale::classic());
-  stream_->precision(kDigits);
-  *stream_
-      << "time,name,x,y,z,qx,qy,qz,qw,velocity_x,velocity_y,velocity_z,force_x,force_y,force_z,"
-         "torque_x,torque_y,torque_z\n";
+  for (const RigidObject& object : objects) names_.push_back(CsvCell(object.name));
+  BeginCsv(
+      "time,name,x,y,z,qx,qy,qz,qw,velocity_x,velocity_y,velocity_z,force_x,force_y,force_z,"
+      "torque_x,torque_y,torque_z",
+      stream_);
 }
 
 void ObjectsWriter::Write(const StepResult& result) {

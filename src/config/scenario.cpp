@@ -11,6 +11,7 @@
 
 #include "vacuum_gripper_sim/config/parameter_reader.h"
 #include "vacuum_gripper_sim/config/simulator_config.h"
+#include "vacuum_gripper_sim/config/vacuum_config.h"
 #include "vacuum_gripper_sim/config/yaml_file.h"
 #include "vacuum_gripper_sim/config/yaml_override.h"
 #include "yaml_text.h"
@@ -83,6 +84,17 @@ void CheckSetpoints(const Scenario& scenario, const YAML::Node& timeline) {
   }
 }
 
+void CheckFaults(const Scenario& scenario) {
+  FaultList list = scenario.FaultsAt(-1.0);
+  for (std::size_t i = 0; i < scenario.faults.size(); ++i) {
+    try {
+      list.Apply(scenario.faults[i].command);
+    } catch (const std::invalid_argument& e) {
+      throw std::invalid_argument("faults." + std::to_string(i) + "." + e.what());
+    }
+  }
+}
+
 void CheckDuration(const Scenario& scenario, const YAML::Node& value) {
   if (scenario.duration <= 0.0) {
     throw std::invalid_argument("duration = " + Describe(value) + "; expected more than 0 [s]");
@@ -104,6 +116,10 @@ Scenario ReadDocument(const YAML::Node& root, const Directories& directories,
   SimulatorParameters& parameters = scenario.parameters;
   parameters = ReadSimulatorParameters(&reader);
   parameters.time_step = reader.GetDouble("time_step", parameters.time_step);
+  const VacuumSystem vacuum = ReadVacuumSystem(&reader);
+  parameters.vacuum = vacuum.parameters;
+  scenario.sensor = vacuum.sensor;
+  const YAML::Node faults = reader.GetNode("faults");
   const YAML::Node timeline = reader.GetNode("timeline");
   const YAML::Node duration = reader.GetNode("duration");
   const YAML::Node stop_after_loss = reader.GetNode("stop_after_loss");
@@ -121,6 +137,10 @@ Scenario ReadDocument(const YAML::Node& root, const Directories& directories,
   SurfaceList world = ReadWorld(&reader, directories);
   scenario.objects = std::move(world.objects);
   scenario.motions = std::move(world.motions);
+  if (reader.Has("faults")) {
+    scenario.faults = ReadFaultEvents(faults, "faults");
+    CheckFaults(scenario);
+  }
   scenario.timeline = ReadTimeline(timeline, "timeline");
   CheckSetpoints(scenario, timeline);
   scenario.duration = reader.GetDouble("duration", scenario.timeline.back().time);
@@ -145,6 +165,21 @@ int Scenario::num_steps() const {
 bool Scenario::HasMovingObjects() const {
   const auto is_free = [](const RigidObject& object) { return object.inertia.has_value(); };
   return !motions.empty() || std::any_of(objects.begin(), objects.end(), is_free);
+}
+
+FaultList Scenario::FaultsAt(double time) const {
+  std::vector<std::string> cups, names;
+  cups.reserve(parameters.cups.size());
+  for (const CupMount& mount : parameters.cups) cups.push_back(mount.name);
+  names.reserve(objects.size());
+  for (const RigidObject& object : objects) names.push_back(object.name);
+  FaultList list(std::move(cups), std::move(names),
+                 parameters.vacuum.source != VacuumSourceType::kIdealRegulator);
+  // The slack forgives times of steps their rounding.
+  for (const FaultEvent& event : faults) {
+    if (event.time <= time + 1e-9) list.Apply(event.command);
+  }
+  return list;
 }
 
 std::string FindScenario(const std::string& name, const std::string& share_directory) {

@@ -1,5 +1,7 @@
 #include "vacuum_gripper_sim/config/simulator_config.h"
 
+#include "vacuum_gripper_sim/config/cup_list.h"
+
 namespace vacuum_gripper_sim {
 namespace {
 
@@ -61,6 +63,8 @@ SimulatorParameters ReadSimulatorParameters(ParameterReader* reader) {
   p.contact = ReadContact(reader->GetMap("contact"));
   p.seal = ReadSeal(reader->GetMap("seal"));
   p.regulator = ReadRegulator(reader->GetMap("regulator"));
+  const YAML::Node cups = reader->GetNode("cups");
+  if (reader->Has("cups")) p.cups = ReadCupMounts(cups, reader->Name("cups"));
   return p;
 }
 

@@ -1,26 +1,17 @@
 #include "vacuum_gripper_sim/config/timeseries_writer.h"
 
-#include <locale>
+#include "csv_text.h"
 
 namespace vacuum_gripper_sim {
-namespace {
-
-constexpr int kDigits = 12;
-
-void WriteVector(const Eigen::Vector3d& v, std::ostream* stream) {
-  *stream << ',' << v.x() << ',' << v.y() << ',' << v.z();
-}
-
-}  // namespace
-
 TimeseriesWriter::TimeseriesWriter(std::ostream* stream) : stream_(stream) {
-  stream_->imbue(std::locale::classic());
-  stream_->precision(kDigits);
-  *stream_ << "time,mount_x,mount_y,mount_z,setpoint,pressure,status,force_x,force_y,force_z,"
-              "torque_x,torque_y,torque_z,contacts,cavity_area,contact_force,iterations,residual,"
-              "step_ms,bottleneck_gap,cavity_volume,candidates,max_penetration,zone_0,zone_1,"
-              "zone_2,zone_3,zone_4,linear_iterations,factorizations,outcome,"
-              "opening_azimuth,opening_width,opening_gap,friction_force\n";
+  BeginCsv(
+      "time,mount_x,mount_y,mount_z,setpoint,pressure,status,force_x,force_y,force_z,"
+      "torque_x,torque_y,torque_z,contacts,cavity_area,contact_force,iterations,residual,"
+      "step_ms,bottleneck_gap,cavity_volume,candidates,max_penetration,zone_0,zone_1,"
+      "zone_2,zone_3,zone_4,linear_iterations,factorizations,outcome,"
+      "opening_azimuth,opening_width,opening_gap,friction_force,"
+      "manifold_pressure,source_flow,leak_flow,leak_area,gas_imbalance,gas_rounds",
+      stream_);
 }
 
 void TimeseriesWriter::Write(const StepResult& r) {
@@ -37,7 +28,8 @@ void TimeseriesWriter::Write(const StepResult& r) {
   for (const std::uint32_t count : r.zone_counts) s << ',' << count;
   s << ',' << r.linear_iterations << ',' << r.factorizations << ',' << static_cast<int>(r.outcome)
     << ',' << r.opening.azimuth << ',' << r.opening.width << ',' << r.opening.largest_gap << ','
-    << r.friction_force << '\n';
+    << r.friction_force << ',' << r.manifold_pressure << ',' << r.source_flow << ',' << r.leak_flow
+    << ',' << r.leak_area << ',' << r.gas_imbalance << ',' << r.gas_rounds << '\n';
 }
 
 }  // namespace vacuum_gripper_sim

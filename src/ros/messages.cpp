@@ -16,6 +16,7 @@ static_assert(SealState::OPEN == static_cast<int>(SealStatus::kOpen), "message a
 static_assert(SealState::SEALED == static_cast<int>(SealStatus::kSealed), "likewise");
 static_assert(SealState::REGULATING == static_cast<int>(SealStatus::kRegulating), "likewise");
 static_assert(SealState::LOST == static_cast<int>(SealStatus::kLost), "likewise");
+static_assert(SealState::LEAKING == static_cast<int>(SealStatus::kLeaking), "likewise");
 
 geometry_msgs::Vector3 ToVector3(const Eigen::Vector3d& v) {
   geometry_msgs::Vector3 message;
@@ -25,54 +26,47 @@ geometry_msgs::Vector3 ToVector3(const Eigen::Vector3d& v) {
   return message;
 }
 
-geometry_msgs::TransformStamped ToTransformStamped(const Eigen::Isometry3d& X_WF,
-                                                   const std::string& frame,
-                                                   const std_msgs::Header& header) {
-  geometry_msgs::TransformStamped message;
-  message.header = header;
-  message.child_frame_id = frame;
-  message.transform.translation = ToVector3(X_WF.translation());
-  const Eigen::Quaterniond rotation = Eigen::Quaterniond(X_WF.linear()).normalized();
-  message.transform.rotation.x = rotation.x();
-  message.transform.rotation.y = rotation.y();
-  message.transform.rotation.z = rotation.z();
-  message.transform.rotation.w = rotation.w();
-  return message;
-}
-
 }  // namespace
 
-geometry_msgs::WrenchStamped ToWrench(const StepResult& result, const std_msgs::Header& header) {
+std_msgs::Header MakeHeader(const ros::Time& stamp, const std::string& frame) {
+  std_msgs::Header header;
+  header.stamp = stamp;
+  header.frame_id = frame;
+  return header;
+}
+
+geometry_msgs::WrenchStamped ToWrench(const Eigen::Vector3d& force, const Eigen::Vector3d& torque,
+                                      const std_msgs::Header& header) {
   geometry_msgs::WrenchStamped message;
   message.header = header;
-  message.wrench.force = ToVector3(result.force_M);
-  message.wrench.torque = ToVector3(result.torque_M);
+  message.wrench.force = ToVector3(force);
+  message.wrench.torque = ToVector3(torque);
   return message;
 }
 
-SealState ToSealState(const StepResult& result, const std_msgs::Header& header) {
+SealState ToSealState(const GripSummary& grip, double setpoint, const std_msgs::Header& header) {
   SealState message;
   message.header = header;
-  message.status = static_cast<std::uint8_t>(result.status);
-  message.gauge_pressure = result.gauge_pressure;
-  message.setpoint = result.setpoint;
-  message.cavity_area = result.cavity_area;
-  message.cavity_volume = result.cavity_volume;
-  message.contact_force = result.contact_force;
-  message.num_contacts = result.num_contacts;
-  std::copy(result.zone_counts.begin(), result.zone_counts.end(), message.zone_counts.begin());
-  message.bottleneck_gap = result.bottleneck_gap;
-  message.opening_azimuth = result.opening.azimuth;
-  message.opening_width = result.opening.width;
-  message.opening_gap = result.opening.largest_gap;
+  message.status = static_cast<std::uint8_t>(grip.status);
+  message.gauge_pressure = grip.gauge_pressure;
+  message.setpoint = setpoint;
+  message.cavity_area = grip.cavity_area;
+  message.cavity_volume = grip.cavity_volume;
+  message.contact_force = grip.contact_force;
+  message.num_contacts = grip.num_contacts;
+  std::copy(grip.zone_counts.begin(), grip.zone_counts.end(), message.zone_counts.begin());
+  message.bottleneck_gap = grip.bottleneck_gap;
+  message.opening_azimuth = grip.opening.azimuth;
+  message.opening_width = grip.opening.width;
+  message.opening_gap = grip.opening.largest_gap;
   return message;
 }
 
-sensor_msgs::FluidPressure ToFluidPressure(const StepResult& result, double ambient_pressure,
+sensor_msgs::FluidPressure ToFluidPressure(const GripSummary& grip, double ambient_pressure,
                                            const std_msgs::Header& header) {
   sensor_msgs::FluidPressure message;
   message.header = header;
-  message.fluid_pressure = ambient_pressure + result.gauge_pressure;
+  message.fluid_pressure = ambient_pressure + grip.gauge_pressure;
   message.variance = 0.0;
   return message;
 }
@@ -110,9 +104,18 @@ sensor_msgs::PointCloud2 ToPointCloud(const StepResult& result, const CavitySurf
   return cloud;
 }
 
-geometry_msgs::TransformStamped ToTransform(const StepResult& result, const std::string& cup_frame,
+geometry_msgs::TransformStamped ToTransform(const Eigen::Isometry3d& X_PF, const std::string& frame,
                                             const std_msgs::Header& header) {
-  return ToTransformStamped(result.X_WM, cup_frame, header);
+  geometry_msgs::TransformStamped message;
+  message.header = header;
+  message.child_frame_id = frame;
+  message.transform.translation = ToVector3(X_PF.translation());
+  const Eigen::Quaterniond rotation = Eigen::Quaterniond(X_PF.linear()).normalized();
+  message.transform.rotation.x = rotation.x();
+  message.transform.rotation.y = rotation.y();
+  message.transform.rotation.z = rotation.z();
+  message.transform.rotation.w = rotation.w();
+  return message;
 }
 
 std::vector<geometry_msgs::TransformStamped> ToTransforms(const StepResult& result,
@@ -121,7 +124,7 @@ std::vector<geometry_msgs::TransformStamped> ToTransforms(const StepResult& resu
   std::vector<geometry_msgs::TransformStamped> transforms;
   for (std::size_t i = 0; i < objects.size(); ++i) {
     if (!objects[i].inertia) continue;
-    transforms.push_back(ToTransformStamped(result.objects.at(i).X_WO, objects[i].name, header));
+    transforms.push_back(ToTransform(result.objects.at(i).X_WO, objects[i].name, header));
   }
   return transforms;
 }
@@ -143,10 +146,10 @@ ContactWrenches ToContactWrenches(const StepResult& result, const std::vector<Ri
   return message;
 }
 
-bool IsGrasping(const StepResult& result) {
-  const bool airtight =
-      result.status == SealStatus::kSealed || result.status == SealStatus::kRegulating;
-  return airtight && result.gauge_pressure < 0.0;
+bool IsGrasping(const GripSummary& grip) {
+  const bool holds = grip.status == SealStatus::kSealed || grip.status == SealStatus::kRegulating ||
+                     grip.status == SealStatus::kLeaking;
+  return holds && grip.gauge_pressure < 0.0;
 }
 
 }  // namespace vacuum_gripper_sim

@@ -8,6 +8,7 @@
 #include <vacuum_gripper_sim/ContactWrenches.h>
 #include <vacuum_gripper_sim/SealState.h>
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -17,22 +18,29 @@
 
 namespace vacuum_gripper_sim {
 
-/// Force and torque of the cup on its mount, at the mount's origin. @param header Of `cup_frame`.
-geometry_msgs::WrenchStamped ToWrench(const StepResult& result, const std_msgs::Header& header);
+/// Of what is published every step.
+inline constexpr std::uint32_t kQueueSize = 10;
 
-/// @param header Of `cup_frame`.
-SealState ToSealState(const StepResult& result, const std_msgs::Header& header);
+std_msgs::Header MakeHeader(const ros::Time& stamp, const std::string& frame);
 
-/// Absolute pressure in the cavity. @param ambient_pressure [Pa] @param header Of `cup_frame`.
-sensor_msgs::FluidPressure ToFluidPressure(const StepResult& result, double ambient_pressure,
+/// @param force [N] @param torque [N m] @param header Of the frame of their axes, at whose origin
+/// they act.
+geometry_msgs::WrenchStamped ToWrench(const Eigen::Vector3d& force, const Eigen::Vector3d& torque,
+                                      const std_msgs::Header& header);
+
+/// @param grip Of a gripper or one of its cups. @param setpoint [Pa] @param header Of its frame.
+SealState ToSealState(const GripSummary& grip, double setpoint, const std_msgs::Header& header);
+
+/// Absolute pressure in the cavity. @param ambient_pressure [Pa] @param header Of the grip's frame.
+sensor_msgs::FluidPressure ToFluidPressure(const GripSummary& grip, double ambient_pressure,
                                            const std_msgs::Header& header);
 
 /// The classified points of the inner surface: x y z rgb gap zone. @param header Of `world_frame`.
 sensor_msgs::PointCloud2 ToPointCloud(const StepResult& result, const CavitySurface& cavity,
                                       const std_msgs::Header& header);
 
-/// Pose of `cup_frame`. @param header Of `world_frame`.
-geometry_msgs::TransformStamped ToTransform(const StepResult& result, const std::string& cup_frame,
+/// @param X_PF Pose of the frame in its parent. @param header Of the parent.
+geometry_msgs::TransformStamped ToTransform(const Eigen::Isometry3d& X_PF, const std::string& frame,
                                             const std_msgs::Header& header);
 
 /// Poses of the free objects. @param objects Of the result. @param header Of `world_frame`.
@@ -45,7 +53,7 @@ std::vector<geometry_msgs::TransformStamped> ToTransforms(const StepResult& resu
 ContactWrenches ToContactWrenches(const StepResult& result, const std::vector<RigidObject>& objects,
                                   const std_msgs::Header& header);
 
-/// True when the cavity is airtight and suction acts in it.
-bool IsGrasping(const StepResult& result);
+/// True when suction acts in a cavity that is airtight, or whose leak the pump keeps up with.
+bool IsGrasping(const GripSummary& grip);
 
 }  // namespace vacuum_gripper_sim

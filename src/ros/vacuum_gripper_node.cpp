@@ -6,6 +6,7 @@
 #include <tf2/exceptions.h>
 
 #include <cmath>
+#include <cstddef>
 #include <sstream>
 #include <stdexcept>
 #include <utility>
@@ -17,7 +18,6 @@
 namespace vacuum_gripper_sim {
 namespace {
 
-constexpr std::uint32_t kQueueSize = 10;
 constexpr double kMountIsBehind = 0.01;  // Distance to mount_frame that is worth a warning. [m]
 
 }  // namespace
@@ -33,12 +33,15 @@ VacuumGripperNode::VacuumGripperNode(const ros::NodeHandle& private_nh)
       diagnostics_(parameters_.cup.name, parameters_.diagnostic_period,
                    parameters_.simulator.time_step, parameters_.simulator.contact.tolerance) {
   AdvertiseAndSubscribe();
+  AdvertiseCups();
   world_.Update(tf_buffer_, &simulator_);
   simulator_.Reset(parameters_.X_WM);  // now it sees the world
   PublishState(ros::Time::now(), simulator_.result());
-  ROS_INFO("cup %s: %d nodes, %d %s elements, %g Hz", parameters_.cup.name.c_str(),
-           simulator_.mesh().num_nodes(), simulator_.mesh().num_elements(),
-           simulator_.mesh().quadratic() ? "quadratic" : "linear", parameters_.rate);
+  const int num_cups = simulator_.cups().num_cups();
+  ROS_INFO("%d cup%s %s: %d nodes, %d %s elements, %g Hz", num_cups, num_cups > 1 ? "s" : "",
+           parameters_.cup.name.c_str(), simulator_.mesh().num_nodes(),
+           simulator_.mesh().num_elements(), simulator_.mesh().quadratic() ? "quadratic" : "linear",
+           parameters_.rate);
 }
 
 void VacuumGripperNode::AdvertiseAndSubscribe() {
@@ -61,6 +64,17 @@ void VacuumGripperNode::AdvertiseAndSubscribe() {
   on_server_ = nh_.advertiseService("on", &VacuumGripperNode::OnOn, this);
   off_server_ = nh_.advertiseService("off", &VacuumGripperNode::OnOff, this);
   reset_server_ = nh_.advertiseService("reset", &VacuumGripperNode::OnReset, this);
+}
+
+void VacuumGripperNode::AdvertiseCups() {
+  std::vector<geometry_msgs::TransformStamped> transforms;
+  const std_msgs::Header header = MakeHeader(ros::Time::now(), parameters_.cup_frame);
+  for (const CupMount& cup : parameters_.simulator.cups) {
+    if (cup.name.empty()) return;  // the only one, without a list
+    cup_publishers_.emplace_back(nh_, cup, parameters_.cup_frame);
+    transforms.push_back(ToTransform(cup.X_MC, cup_publishers_.back().frame(), header));
+  }
+  static_tf_broadcaster_.sendTransform(transforms);
 }
 
 void VacuumGripperNode::Run() {
@@ -221,19 +235,26 @@ void VacuumGripperNode::Publish(const ros::Time& stamp, const StepResult& result
   std::vector<geometry_msgs::TransformStamped> transforms =
       ToTransforms(result, simulator_.objects(), world_header);
   if (parameters_.actuator == ActuatorSource::kPoseCommand) {
-    transforms.push_back(ToTransform(result, parameters_.cup_frame, world_header));
+    transforms.push_back(ToTransform(result.X_WM, parameters_.cup_frame, world_header));
   }
   if (!transforms.empty()) tf_broadcaster_.sendTransform(transforms);
   contact_wrenches_publisher_.publish(
       ToContactWrenches(result, simulator_.objects(), world_header));
-  wrench_publisher_.publish(ToWrench(result, cup_header));
+  wrench_publisher_.publish(ToWrench(result.force_M, result.torque_M, cup_header));
   pressure_publisher_.publish(ToFluidPressure(result, parameters_.ambient_pressure, cup_header));
+  for (std::size_t i = 0; i < cup_publishers_.size(); ++i) {
+    cup_publishers_[i].PublishForces(stamp, result.cups[i], parameters_.ambient_pressure);
+  }
   PublishState(stamp, result);
   PublishDisplay(world_header, result);
 }
 
 void VacuumGripperNode::PublishState(const ros::Time& stamp, const StepResult& result) {
-  seal_publisher_.publish(ToSealState(result, MakeHeader(stamp, parameters_.cup_frame)));
+  seal_publisher_.publish(
+      ToSealState(result, result.setpoint, MakeHeader(stamp, parameters_.cup_frame)));
+  for (std::size_t i = 0; i < cup_publishers_.size(); ++i) {
+    cup_publishers_[i].PublishState(stamp, result.cups[i], result.setpoint);
+  }
   const bool grasping = IsGrasping(result);
   if (grasping != grasping_ || !grasping_published_) {
     std_msgs::Bool message;
@@ -261,14 +282,6 @@ void VacuumGripperNode::PublishDisplay(const std_msgs::Header& world_header,
     points_publisher_.publish(ToPointCloud(result, simulator_.cavity(), world_header));
   }
   if (wants_markers) markers_publisher_.publish(painter_.Paint(result, world_header));
-}
-
-std_msgs::Header VacuumGripperNode::MakeHeader(const ros::Time& stamp,
-                                               const std::string& frame) const {
-  std_msgs::Header header;
-  header.stamp = stamp;
-  header.frame_id = frame;
-  return header;
 }
 
 }  // namespace vacuum_gripper_sim

@@ -5,11 +5,15 @@
 #include <std_srvs/Empty.h>
 #include <std_srvs/Trigger.h>
 #include <tf2_ros/buffer.h>
+#include <tf2_ros/static_transform_broadcaster.h>
 #include <tf2_ros/transform_broadcaster.h>
 #include <tf2_ros/transform_listener.h>
 #include <vacuum_gripper_sim/PressureSetpoint.h>
 
+#include <vector>
+
 #include "actuator.h"
+#include "cup_publisher.h"
 #include "diagnostics.h"
 #include "markers.h"
 #include "parameters.h"
@@ -35,6 +39,7 @@ class VacuumGripperNode {
 
  private:
   void AdvertiseAndSubscribe();
+  void AdvertiseCups();
 
   void OnPressureSetpoint(const PressureSetpoint& message);
   void OnPoseCommand(const geometry_msgs::PoseStamped& message);
@@ -51,7 +56,6 @@ class VacuumGripperNode {
   void Publish(const ros::Time& stamp, const StepResult& result);
   void PublishState(const ros::Time& stamp, const StepResult& result);  // What is latched.
   void PublishDisplay(const std_msgs::Header& world_header, const StepResult& result);
-  std_msgs::Header MakeHeader(const ros::Time& stamp, const std::string& frame) const;
 
   ros::NodeHandle nh_;
   NodeParameters parameters_;
@@ -73,9 +77,11 @@ class VacuumGripperNode {
   tf2_ros::Buffer tf_buffer_;
   tf2_ros::TransformListener tf_listener_{tf_buffer_};
   tf2_ros::TransformBroadcaster tf_broadcaster_;
+  tf2_ros::StaticTransformBroadcaster static_tf_broadcaster_;
   ros::Subscriber setpoint_subscriber_, pose_subscriber_;
   ros::Publisher wrench_publisher_, contact_wrenches_publisher_, seal_publisher_,
       pressure_publisher_, points_publisher_, markers_publisher_, grasping_publisher_;
+  std::vector<CupPublisher> cup_publishers_;  // Of cups with names, all or none.
   ros::ServiceServer on_server_, off_server_, reset_server_;
 };
 

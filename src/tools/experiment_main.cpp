@@ -12,11 +12,13 @@
 #include <system_error>
 #include <vector>
 
+#include "vacuum_gripper_sim/config/cups_writer.h"
 #include "vacuum_gripper_sim/config/experiment.h"
 #include "vacuum_gripper_sim/config/experiment_summary.h"
 #include "vacuum_gripper_sim/config/objects_writer.h"
 #include "vacuum_gripper_sim/config/package_paths.h"
 #include "vacuum_gripper_sim/config/scenario.h"
+#include "vacuum_gripper_sim/config/sensor_writer.h"
 #include "vacuum_gripper_sim/config/timeseries_writer.h"
 #include "vacuum_gripper_sim/config/vtu_writer.h"
 
@@ -37,9 +39,11 @@ constexpr char kUsage[] =
     "  --set KEY=VALUE   overrides a key by its dotted path, e.g. cup.young_modulus=593000.0,\n"
     "                    cup=a30, timeline.2.time=0.8; repeatable, applied in order; paths are\n"
     "                    relative to the scenario's file\n"
-    "  --out DIR         writes timeseries.csv, summary.yaml, final.vtu and, if objects move,\n"
-    "                    objects.csv into DIR (made if it is missing); without it nothing is\n"
-    "                    written\n"
+    "  --out DIR         writes timeseries.csv, summary.yaml, final.vtu, objects.csv if objects\n"
+    "                    move, cups.csv of several cups, and sensor.csv of another source than\n"
+    "                    the ideal regulator, into DIR (made if it is missing); without it "
+    "nothing\n"
+    "                    is written\n"
     "  --quiet           prints errors only\n"
     "  --help            prints this\n"
     "\n"
@@ -103,22 +107,36 @@ class Outputs {
     Open(directory / "summary.yaml", &summary_);
     Open(directory / "final.vtu", &grid_);
     writer_.emplace(&timeseries_);
-    if (!scenario.HasMovingObjects() && !scenario.object_output) return;
-    Open(directory / "objects.csv", &objects_);
-    objects_writer_.emplace(scenario.objects, &objects_);
+    if (scenario.HasMovingObjects() || scenario.object_output) {
+      Open(directory / "objects.csv", &objects_);
+      objects_writer_.emplace(scenario.objects, &objects_);
+    }
+    if (scenario.parameters.cups.size() > 1) {
+      Open(directory / "cups.csv", &cups_);
+      cups_writer_.emplace(scenario.parameters.cups, &cups_);
+    }
+    const VacuumParameters& vacuum = scenario.parameters.vacuum;
+    if (vacuum.source != VacuumSourceType::kIdealRegulator) {
+      Open(directory / "sensor.csv", &sensor_);
+      sensor_writer_.emplace(scenario.sensor, vacuum.ambient_pressure, &sensor_);
+    }
   }
 
-  void Write(const StepResult& result) {
+  void Write(const Scenario& scenario, const StepResult& result) {
     writer_->Write(result);
     if (objects_writer_) objects_writer_->Write(result);
+    if (cups_writer_) cups_writer_->Write(result);
+    if (sensor_writer_) {
+      sensor_writer_->Write(result, scenario.FaultsAt(result.time).sensor_stuck());
+    }
   }
 
   void Finish(const Scenario& scenario, const ExperimentOutcome& outcome,
               const Simulator& simulator) {
     WriteSummary(outcome.summary, scenario.name, &summary_);
     WriteVtu(simulator.cups(), simulator.result(), &grid_);
-    for (std::ofstream* file : {&timeseries_, &summary_, &grid_, &objects_}) {
-      if (!file->is_open()) continue;  // no objects.csv
+    for (std::ofstream* file : {&timeseries_, &summary_, &grid_, &objects_, &cups_, &sensor_}) {
+      if (!file->is_open()) continue;  // not asked for
       file->close();
       if (!*file) throw std::runtime_error("--out: the files could not be written (disk full?)");
     }
@@ -130,9 +148,11 @@ class Outputs {
     if (!*file) throw std::invalid_argument("--out: " + path.string() + " cannot be written");
   }
 
-  std::ofstream timeseries_, summary_, grid_, objects_;
+  std::ofstream timeseries_, summary_, grid_, objects_, cups_, sensor_;
   std::optional<TimeseriesWriter> writer_;
   std::optional<ObjectsWriter> objects_writer_;
+  std::optional<CupsWriter> cups_writer_;
+  std::optional<SensorWriter> sensor_writer_;
 };
 
 /// About ten lines a run, at most one each 0.1 s of simulated time.
@@ -172,9 +192,10 @@ int Run(const Arguments& arguments) {
   std::optional<Outputs> outputs;
   if (arguments.out) outputs.emplace(*arguments.out, scenario);
   if (!arguments.quiet) {
-    std::printf("%s: cup %s, %d nodes, %d %s tetrahedra, %d steps of %g s\n", scenario.name.c_str(),
-                scenario.cup.name.c_str(), simulator.mesh().num_nodes(),
-                simulator.mesh().num_elements(),
+    std::printf("%s: %d cup%s %s, %d nodes, %d %s tetrahedra, %d steps of %g s\n",
+                scenario.name.c_str(), simulator.cups().num_cups(),
+                simulator.cups().num_cups() > 1 ? "s" : "", scenario.cup.name.c_str(),
+                simulator.mesh().num_nodes(), simulator.mesh().num_elements(),
                 simulator.mesh().quadratic() ? "quadratic" : "linear", scenario.num_steps(),
                 scenario.parameters.time_step);
   }
@@ -182,7 +203,7 @@ int Run(const Arguments& arguments) {
   Progress progress(scenario.duration);
   const ExperimentOutcome outcome =
       RunExperiment(scenario, &simulator, [&](const StepResult& result) {
-        if (outputs) outputs->Write(result);
+        if (outputs) outputs->Write(scenario, result);
         if (!arguments.quiet) progress.Report(result);
       });
   if (outputs) outputs->Finish(scenario, outcome, simulator);

@@ -70,6 +70,21 @@ TEST_F(ExperimentTool, WritesItsThreeFiles) {
   EXPECT_TRUE(Contains(ReadText(out + "final.vtu"), "</VTKFile>"));
 }
 
+TEST_F(ExperimentTool, SeveralCupsHaveAFileOfTheirOwn) {
+  directory_.Write("hover.yaml", kHover + std::string(R"(cups:
+  - {name: left, position: [-0.03, 0.0, 0.0]}
+  - {name: right, position: [0.03, 0.0, 0.0]}
+)"));
+  ASSERT_EQ(Run("hover.yaml --out both"), 0) << stderr_;
+  const std::string rows = ReadText(directory_.path() + "/both/cups.csv");
+  EXPECT_EQ(Lines(rows), 1 + 2 * 5);
+  EXPECT_TRUE(Contains(rows, "\n0.05,right,0,"));
+  EXPECT_EQ(Lines(ReadText(directory_.path() + "/both/timeseries.csv")), 6);
+  directory_.Write("hover.yaml", kHover);
+  ASSERT_EQ(Run("hover.yaml --out one"), 0) << stderr_;
+  EXPECT_FALSE(fs::exists(directory_.path() + "/one/cups.csv"));
+}
+
 TEST_F(ExperimentTool, QuietPrintsNothingAndHelpPrintsTheUsage) {
   directory_.Write("hover.yaml", kHover);
   EXPECT_EQ(Run("hover.yaml --quiet --set duration=0.01"), 0);

@@ -24,6 +24,8 @@ TEST(SimulatorConfig, NothingSetGivesTheDefaults) {
   EXPECT_EQ(read.contact.tolerance, expected.contact.tolerance);
   EXPECT_EQ(read.seal.open_gap, expected.seal.open_gap);
   EXPECT_EQ(read.regulator.min_pressure, expected.regulator.min_pressure);
+  ASSERT_EQ(read.cups.size(), 1U);
+  EXPECT_EQ(read.cups[0].name, "");
 }
 
 TEST(SimulatorConfig, ReadsEveryKey) {
@@ -35,6 +37,7 @@ contact: {solver: gauss_seidel, tolerance: 0.4, acceptable_residual: 0.45, max_i
           relaxation: 1.6, alarm_distance: 0.7}
 seal: {close_gap: 0.8, open_gap: 0.9, max_rounds: 10, ramp_increments: 11}
 regulator: {default_pressure: -12.0, min_pressure: -13.0, ramp_rate: 14.0}
+cups: [{name: a, position: [0.15, 0.16, 0.17]}]
 )");
   EXPECT_EQ(p.gravity, Eigen::Vector3d(1.0, 2.0, 3.0));
   EXPECT_EQ(p.linear_solver.method, LinearSolverMethod::kConjugateGradient);
@@ -55,6 +58,8 @@ regulator: {default_pressure: -12.0, min_pressure: -13.0, ramp_rate: 14.0}
   EXPECT_EQ(p.regulator.default_pressure, -12.0);
   EXPECT_EQ(p.regulator.min_pressure, -13.0);
   EXPECT_EQ(p.regulator.ramp_rate, 14.0);
+  ASSERT_EQ(p.cups.size(), 1U);
+  EXPECT_EQ(p.cups[0].X_MC.translation(), Eigen::Vector3d(0.15, 0.16, 0.17));
 }
 
 TEST(SimulatorConfig, RefusalsNameTheDottedPath) {
@@ -64,6 +69,7 @@ TEST(SimulatorConfig, RefusalsNameTheDottedPath) {
   EXPECT_TRUE(Contains(ErrorOf([] { Read("linear_solver: {methode: direct}"); }),
                        "linear_solver.methode is not a known key"));
   EXPECT_TRUE(Contains(ErrorOf([] { Read("regulator: -6000.0"); }), "regulator = -6000.0"));
+  EXPECT_TRUE(Contains(ErrorOf([] { Read("cups:"); }), "cups = (empty); expected a list"));
 }
 
 TEST(SimulatorConfig, KnowsEveryLinearSolver) {

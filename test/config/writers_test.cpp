@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "config_test_tools.h"
+#include "vacuum_gripper_sim/config/cups_writer.h"
 #include "vacuum_gripper_sim/config/objects_writer.h"
 #include "vacuum_gripper_sim/config/timeseries_writer.h"
 #include "vacuum_gripper_sim/config/vtu_writer.h"
@@ -130,6 +131,42 @@ TEST(ObjectsWriter, ARowForEveryObject) {
   EXPECT_EQ(Split(header).size(), 18U);
   EXPECT_EQ(first, "1234.5,table,1,2,3,1,0,0,0,4,5,6,7,8,9,10,11,12");
   EXPECT_EQ(second.substr(0, 27), "1234.5,\"a \"\"box\"\", closed\",");
+}
+
+TEST(CupsWriter, ARowForEveryCup) {
+  std::vector<CupMount> cups(2);
+  cups[0].name = "left";
+  cups[1].name = "right";
+  std::ostringstream text;
+  text.imbue(std::locale(std::locale::classic(), new CommaPunctuation));
+  CupsWriter writer(cups, &text);
+  StepResult result;
+  result.time = 1234.5;
+  result.cups.resize(2);
+  CupResult& left = result.cups[0];
+  left.status = SealStatus::kLeaking;
+  left.gauge_pressure = -6000.5;
+  left.cavity_area = 1.0;
+  left.contact_force = 2.0;
+  left.num_contacts = 3;
+  left.X_WC.linear() = Eigen::Quaterniond(0.0, 1.0, 0.0, 0.0).toRotationMatrix();  // z down
+  left.force_C = Eigen::Vector3d(4.0, 5.0, 6.0);
+  left.torque_C = Eigen::Vector3d(7.0, 8.0, 9.0);
+  left.bottleneck_gap = 10.0;
+  left.opening = {11.0, 12.0, 13.0};
+  left.cavity_volume = 14.0;
+  left.leak_flow = 15.0;
+  left.leak_area = 16.0;
+  writer.Write(result);
+
+  std::istringstream lines(text.str());
+  std::string header, first, second;
+  std::getline(lines, header);
+  std::getline(lines, first);
+  std::getline(lines, second);
+  EXPECT_EQ(Split(header).size(), 20U);
+  EXPECT_EQ(first, "1234.5,left,4,-6000.5,1,2,3,4,-5,-6,7,-8,-9,10,11,12,13,14,15,16");
+  EXPECT_EQ(second.substr(0, 13), "1234.5,right,");
 }
 
 TEST(VtuWriter, WritesPointsCellsAndFields) {

@@ -24,6 +24,8 @@ WRONG = {
     'world_frame': ['', '/world', 5],
     'cup_frame': ['', '/cup', 'world', 5],
     'actuator': ['robot', 3],
+    'cups': [[], 2, [{'name': 'a'}], [{'name': 'a/b', 'position': [0.0, 0.0, 0.0]}],
+             2 * [{'name': 'a', 'position': [0.0, 0.0, 0.0]}]],
     'cup': ['no_such_cup', 5, {'name': 'x'}],
     'display_rate': [0.0, -1.0],
     'diagnostic_period': [0.0],
@@ -53,8 +55,8 @@ WRONG = {
     'linear_solver.max_iterations': [0],
     'linear_solver.refactor_interval': [0],
 }
-# Not in the file: derived from the mesh unless they are set.
-OPTIONAL = {'seal.close_gap', 'seal.open_gap'}
+# Not in the file: derived from the mesh, or one cup, unless they are set.
+OPTIONAL = {'cups', 'seal.close_gap', 'seal.open_gap'}
 
 
 def set_dotted(config, name, value):

@@ -46,6 +46,9 @@ class ScenesTest(unittest.TestCase):
     def test_edge(self):
         self.assertFalse(self.play('edge')['sealed'])
 
+    def test_four_cups(self):
+        self.assertAlmostEqual(self.play('four_cups')['objects']['box'][2], 0.03, delta=1e-3)
+
     def test_drag(self):
         self.assertAlmostEqual(self.play('drag')['friction'], 0.5, delta=0.015)
 

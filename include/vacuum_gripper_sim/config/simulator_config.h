@@ -16,6 +16,7 @@ namespace vacuum_gripper_sim {
                relaxation, alarm_distance}
      seal: {close_gap, open_gap, max_rounds, ramp_increments}
      regulator: {default_pressure, min_pressure, ramp_rate}
+     cups: [{name, position, orientation}, ...]            # see ReadCupMounts()
 
  Material, damping and time step come from elsewhere (the cup's file, `rate` or `time_step`) and are
  left at their defaults here. Keys absent keep the defaults of the structs. */
