@@ -77,8 +77,8 @@ struct HoldingTrial::Motion {
 HoldingTrial::HoldingTrial(const TetMesh& mesh, const SimulatorParameters& parameters)
     : simulator_(mesh, parameters) {}
 
-HoldingMargin HoldingTrial::Measure(const Snapshot& moment) {
-  HoldingMargin margin;
+HoldingReserve HoldingTrial::Measure(const Snapshot& moment) {
+  HoldingReserve margin;
   margin.time = moment.time;
   Snapshot clamped = moment;
   for (RigidObject& object : clamped.objects) object.inertia.reset();

@@ -15,6 +15,7 @@
 #include "actuator.h"
 #include "cup_publisher.h"
 #include "diagnostics.h"
+#include "margin_monitor.h"
 #include "markers.h"
 #include "parameters.h"
 #include "step_schedule.h"
@@ -59,10 +60,12 @@ class VacuumGripperNode {
 
   ros::NodeHandle nh_;
   NodeParameters parameters_;
+  TetMesh mesh_;  // of a single cup
   Simulator simulator_;
   Actuator actuator_;
   World world_;
   MarkerPainter painter_;
+  MarginMonitor margin_monitor_;
   StepSchedule schedule_;
   Diagnostics diagnostics_;
   Throttle throttle_;

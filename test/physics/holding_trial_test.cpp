@@ -62,7 +62,7 @@ TEST_P(HoldingTrialTest, PullFailsWhereTheMarginSays) {
           {PoseAt(simulator.result().X_WM.translation().z() + kSlow * parameters_.time_step),
            kSetpoint});
     }
-    const HoldingMargin margin = trial.Measure(simulator.Save());
+    const HoldingReserve margin = trial.Measure(simulator.Save());
     ASSERT_TRUE(margin.holds);
     const double now = simulator.result().force_M.z();
     Simulator real(mesh_, parameters_);
@@ -83,7 +83,7 @@ TEST_P(HoldingTrialTest, ShearEndsAtTheConeOfFriction) {
   constexpr double kFriction = 0.3;
   Simulator simulator = Gripping(kFriction);
   HoldingTrial trial(mesh_, parameters_);
-  const HoldingMargin margin = trial.Measure(simulator.Save());
+  const HoldingReserve margin = trial.Measure(simulator.Save());
   ASSERT_TRUE(margin.holds);
   // Contacts carry the suction less the pull on the mount.
   EXPECT_NEAR(margin.shear_force, kFriction * simulator.result().contact_force,
@@ -95,7 +95,7 @@ TEST_P(HoldingTrialTest, ShearEndsAtTheConeOfFriction) {
 TEST_P(HoldingTrialTest, TiltFailsWhereTheMarginSays) {
   Simulator simulator = Gripping(0.5);
   HoldingTrial trial(mesh_, parameters_);
-  const HoldingMargin margin = trial.Measure(simulator.Save());
+  const HoldingReserve margin = trial.Measure(simulator.Save());
   ASSERT_TRUE(margin.holds);
   Simulator real(mesh_, parameters_);
   real.Restore(simulator.Save());
@@ -126,7 +126,7 @@ TEST_P(HoldingTrialTest, NothingHeldHasNoMargin) {
   Simulator simulator(mesh_, parameters_, PoseAt(kCupLength + 0.05));
   simulator.SetObjects({FixedObject(RigidSurface{"plate", Plane{}})});
   simulator.Step({PoseAt(kCupLength + 0.05), kSetpoint});
-  const HoldingMargin margin = HoldingTrial(mesh_, parameters_).Measure(simulator.Save());
+  const HoldingReserve margin = HoldingTrial(mesh_, parameters_).Measure(simulator.Save());
   EXPECT_FALSE(margin.holds);
   EXPECT_EQ(margin.normal_force, 0.0);
   EXPECT_EQ(margin.shear_force, 0.0);

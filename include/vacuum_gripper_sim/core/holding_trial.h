@@ -8,7 +8,7 @@
 namespace vacuum_gripper_sim {
 
 /// How much more a grip would bear before it fails, see HoldingTrial. Zero where nothing is held.
-struct HoldingMargin {
+struct HoldingReserve {
   double time{0.0};            ///< Of the moment it holds for. [s]
   bool holds{false};           ///< Does the gripper hold something then?
   double normal_force{0.0};    ///< More pull along the suction axis. [N] >= 0
@@ -36,7 +36,7 @@ class HoldingTrial {
   /// @param mesh,parameters Those of the simulator that is to be copied.
   HoldingTrial(const TetMesh& mesh, const SimulatorParameters& parameters);
 
-  HoldingMargin Measure(const Snapshot& moment);
+  HoldingReserve Measure(const Snapshot& moment);
 
  private:
   struct Motion;
