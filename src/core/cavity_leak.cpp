@@ -5,8 +5,6 @@
 #include <cstddef>
 #include <limits>
 
-#include "vacuum_gripper_sim/core/gas_flow.h"
-
 namespace vacuum_gripper_sim {
 namespace {
 
@@ -19,16 +17,6 @@ const CupFaults& FaultsOf(std::size_t cup, const VacuumFaults& faults) {
 }
 
 }  // namespace
-
-double CupLeak::Throughput(double p_from, double p_to) const {
-  return lip.Throughput(p_from, p_to) + 0.5 * porosity * (p_from - p_to) * (p_from + p_to) +
-         OrificeThroughput(hole_area, p_from, p_to);
-}
-
-double CupLeak::EquivalentArea(double p_from, double p_to) const {
-  const double orifice = OrificeThroughput(1.0, p_from, p_to);
-  return orifice == 0.0 ? 0.0 : Throughput(p_from, p_to) / orifice;
-}
 
 CavityLeak::CavityLeak(const CupArray& cups, double open_gap, double reduced_modulus)
     : cups_(&cups), lip_(CavityOfCup(cups.cavities, 0), cups.rest_of_one, reduced_modulus) {

@@ -63,6 +63,7 @@ AirMemory GasSuction::AtRest(const Eigen::Matrix3Xd& x_W, const std::vector<bool
   air.gas = network_.AtAmbient(air.volume);
   air.compliance.assign(num_cups, 0.0);
   air.growth.assign(num_cups, 0.0);
+  air.leaks.resize(num_cups);
   air.slope.assign(num_cups, -1.0);
   air.miss.assign(num_cups, 0.0);
   return air;
@@ -81,6 +82,7 @@ bool GasSuction::Solve(const Eigen::Matrix3Xd& x_W, const Eigen::Isometry3d& X_W
     gas_cups_[cup].hose_opening = cup < faults_.cups.size() ? faults_.cups[cup].hose_opening : 1.0;
   }
   compliance_ = state->air.compliance;
+  leaks_ = state->air.leaks;
   Predict(state->air, h);
 
   const std::vector<bool>& wet = state->classification.wet;
@@ -251,6 +253,7 @@ void GasSuction::Report(double setpoint, double h, const SuctionSolution& soluti
   }
   air.source = source_.state();
   air.compliance = compliance_;
+  air.leaks = leaks_;
   state->classification = solution.classification;
 }
 

@@ -71,6 +71,8 @@ class Simulator::Implementation {
   void SetObjects(std::vector<RigidObject> objects);
   void SetObjectPose(int index, const Eigen::Isometry3d& X_WO);
   void SetFaults(const VacuumFaults& faults);
+  Snapshot Save() const;
+  void Restore(const Snapshot& snapshot);
   void Reset(const Eigen::Isometry3d& X_WM);
   void Step(const Command& command);
 
@@ -163,6 +165,40 @@ void Simulator::Implementation::Reset(const Eigen::Isometry3d& X_WM) {
   result_.cups.assign(cups_.mounts.size(), CupResult());
   ReportCups();
   ReportObjects(std::vector<ObjectLoad>(world_.objects().size()));
+}
+
+Snapshot Simulator::Implementation::Save() const {
+  Snapshot snapshot;
+  snapshot.time = result_.time;
+  snapshot.command = {result_.X_WM, result_.setpoint};
+  snapshot.x_W = state_.x_W;
+  snapshot.v_W = state_.v_W;
+  snapshot.grip = state_.grip;
+  if (gas_suction_) snapshot.faults = gas_suction_->faults();
+  snapshot.objects = world_.objects();
+  for (std::size_t i = 0; i < snapshot.objects.size(); ++i) {
+    snapshot.objects[i].velocity_W = result_.objects[i].velocity_W;
+    snapshot.objects[i].angular_velocity_W = result_.objects[i].angular_velocity_W;
+  }
+  return snapshot;
+}
+
+void Simulator::Implementation::Restore(const Snapshot& snapshot) {
+  if (snapshot.x_W.cols() != cups_.mesh.nodes.cols() ||
+      snapshot.grip.cups.size() != cups_.mounts.size()) {
+    std::ostringstream message;
+    message << "the snapshot has " << snapshot.x_W.cols() << " nodes and "
+            << snapshot.grip.cups.size()
+            << " cups, must have those of the simulator: " << cups_.mesh.nodes.cols() << " and "
+            << cups_.mounts.size();
+    throw std::invalid_argument(message.str());
+  }
+  SetObjects(snapshot.objects);
+  SetFaults(snapshot.faults);
+  Reset(snapshot.command.X_WM);
+  result_.time = snapshot.time;
+  result_.setpoint = snapshot.command.pressure_setpoint;
+  state_ = {snapshot.x_W, snapshot.v_W, snapshot.grip};
 }
 
 /// The mount's nodes end the step where the commanded pose puts them.
@@ -431,6 +467,10 @@ void Simulator::Reset(const Eigen::Isometry3d& X_WM) {
   }
   implementation_->Reset(X_WM);
 }
+
+Snapshot Simulator::Save() const { return implementation_->Save(); }
+
+void Simulator::Restore(const Snapshot& snapshot) { implementation_->Restore(snapshot); }
 
 const StepResult& Simulator::result() const { return implementation_->result_; }
 const CupArray& Simulator::cups() const { return implementation_->cups_; }

@@ -33,6 +33,7 @@ constexpr Required kRequired[] = {
     {"", "actuator"},
     {"", "cup"},
     {"", "display_rate"},
+    {"", "margin_rate"},
     {"", "diagnostic_period"},
     {"", "ambient_pressure"},
     {"", "initial_position"},
@@ -236,6 +237,7 @@ NodeParameters ReadNodeParameters(const YAML::Node& node, const std::string& cup
     }
     parameters.mount_frame = GetFrame(&reader, "mount_frame");
   }
+  parameters.margin_rate = GetPositive(&reader, "margin_rate", 1.0e+3);
   parameters.display_rate = GetPositive(&reader, "display_rate", 1.0e+3);
   GetPositive(&reader, "ambient_pressure", 1.0e+8);
   parameters.X_WM.translation() = reader.GetVector3("initial_position");

@@ -26,6 +26,7 @@ struct NodeParameters {
   std::string cup_frame;    ///< Frame of the mount and of the wrench.
   ActuatorSource actuator{ActuatorSource::kPoseCommand};
   std::string mount_frame;        ///< tf frame that the mount follows with kTf.
+  double margin_rate{0.0};        ///< Of `~holding_margin`, at most. [Hz] > 0
   double display_rate{0.0};       ///< Of `~markers` and `~surface_points`. [Hz] > 0
   double diagnostic_period{0.0};  ///< Of /diagnostics. [s] > 0
   Eigen::Isometry3d X_WM{Eigen::Isometry3d::Identity()};  ///< Initial pose of the mount.

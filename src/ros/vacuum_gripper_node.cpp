@@ -25,13 +25,16 @@ constexpr double kMountIsBehind = 0.01;  // Distance to mount_frame that is wort
 VacuumGripperNode::VacuumGripperNode(const ros::NodeHandle& private_nh)
     : nh_(private_nh),
       parameters_(ReadNodeParameters(private_nh)),
-      simulator_(ReadGmsh(parameters_.cup.mesh_file), parameters_.simulator, parameters_.X_WM),
+      mesh_(ReadGmsh(parameters_.cup.mesh_file)),
+      simulator_(mesh_, parameters_.simulator, parameters_.X_WM),
       actuator_(parameters_.X_WM, parameters_.motion_limits, parameters_.simulator.time_step),
       world_(parameters_.scene_description, parameters_.world_frame, parameters_.friction),
       faults_(private_nh, parameters_.faults, FaultList(parameters_.simulator, world_.names())),
       vacuum_state_(private_nh, parameters_.sensor, parameters_.simulator.vacuum.ambient_pressure,
                     parameters_.cup_frame),
       painter_(simulator_.mesh(), simulator_.cavity()),
+      margin_monitor_(private_nh, mesh_, parameters_.simulator, parameters_.cup_frame,
+                      parameters_.margin_rate),
       schedule_(parameters_.simulator.time_step, ros::Time::isSimTime()),
       diagnostics_(parameters_.cup.name, parameters_.diagnostic_period,
                    parameters_.simulator.time_step, parameters_.simulator.contact.tolerance) {
@@ -119,6 +122,7 @@ void VacuumGripperNode::Step(const ros::Time& stamp) {
   }
   const ros::WallTime stepped = ros::WallTime::now();
   Publish(stamp, result);
+  if (!undone) margin_monitor_.OnStep(stamp, simulator_);
 
   const bool met_deadline = schedule_.OnStepFinished(ros::Time::now());
   const ros::WallTime end = ros::WallTime::now();

@@ -16,6 +16,7 @@
 #include "cup_publisher.h"
 #include "diagnostics.h"
 #include "fault_server.h"
+#include "margin_monitor.h"
 #include "markers.h"
 #include "parameters.h"
 #include "step_schedule.h"
@@ -63,12 +64,14 @@ class VacuumGripperNode {
 
   ros::NodeHandle nh_;
   NodeParameters parameters_;
+  TetMesh mesh_;  // of a single cup
   Simulator simulator_;
   Actuator actuator_;
   World world_;
   FaultServer faults_;
   VacuumStatePublisher vacuum_state_;
   MarkerPainter painter_;
+  MarginMonitor margin_monitor_;
   StepSchedule schedule_;
   Diagnostics diagnostics_;
   Throttle throttle_;

@@ -15,6 +15,8 @@ from std_msgs.msg import Bool
 from std_srvs.srv import Trigger
 from visualization_msgs.msg import Marker, MarkerArray
 
+from vacuum_gripper_sim.msg import HoldingMargin
+
 from gripper_client import (OFF, ON, TOUCH, GripTestCase, SealState, angle_between, pose,
                             transform, wait_until)
 
@@ -38,6 +40,45 @@ def cup_pose():
     buffer = tf_buffer()
     wait_until(lambda: buffer.can_transform('world', 'cup_mount', rospy.Time(0)), 'tf of the cup')
     return buffer.lookup_transform('world', 'cup_mount', rospy.Time(0)).transform
+
+
+class HoldingMarginTest(GripTestCase):
+    """What is left of a grip, and that pulling uses it up."""
+
+    def setUp(self):
+        super().setUp()
+        self.margins = []
+        self.subscriber = rospy.Subscriber(f'{self.gripper.name}/holding_margin', HoldingMargin,
+                                           self.margins.append)
+
+    def tearDown(self):
+        self.subscriber.unregister()
+        super().tearDown()
+
+    def next_margin(self, holds):
+        self.margins.clear()
+        now = rospy.Time.now()
+        wait_until(lambda: self.margins and self.margins[-1].holds == holds
+                   and self.margins[-1].header.stamp >= now, f'a margin with holds = {holds}')
+        return self.margins[-1]
+
+    def test_shrinks_as_the_mount_pulls(self):
+        self.assertEqual(self.next_margin(False).normal_force, 0.0)
+        self.seal()
+        pressed = self.next_margin(True)
+        self.assertEqual(pressed.header.frame_id, 'cup_mount')
+        self.assertGreater(pressed.normal_force, 1.0)
+        self.assertLess(pressed.normal_force, 10.0)
+        self.assertGreaterEqual(pressed.shear_force, 0.0)
+        self.assertGreaterEqual(pressed.tilting_moment, 0.0)
+        force = self.gripper.wrench.wrench.force.z
+        self.gripper.move(TOUCH + 0.003)
+        pulled = self.next_margin(True)
+        gained = self.gripper.wrench.wrench.force.z - force
+        self.assertGreater(gained, 0.3)
+        # What bears more already has less left.
+        self.assertAlmostEqual(pressed.normal_force - pulled.normal_force, gained,
+                               delta=0.15 * pressed.normal_force)
 
 
 class SuctionTest(GripTestCase):

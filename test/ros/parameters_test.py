@@ -27,6 +27,7 @@ WRONG = {
     'cups': [[], 2, [{'name': 'a'}], [{'name': 'a/b', 'position': [0.0, 0.0, 0.0]}],
              2 * [{'name': 'a', 'position': [0.0, 0.0, 0.0]}]],
     'cup': ['no_such_cup', 5, {'name': 'x'}],
+    'margin_rate': [0.0, -1.0],
     'display_rate': [0.0, -1.0],
     'diagnostic_period': [0.0],
     'ambient_pressure': [0.0, -1.0, 50000.0],

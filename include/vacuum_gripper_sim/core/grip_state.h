@@ -5,6 +5,7 @@
 
 #include "vacuum_gripper_sim/core/classifier.h"
 #include "vacuum_gripper_sim/core/contact_stage.h"
+#include "vacuum_gripper_sim/core/cup_leak.h"
 #include "vacuum_gripper_sim/core/gas_network.h"
 #include "vacuum_gripper_sim/core/vacuum_source.h"
 
@@ -25,7 +26,8 @@ struct AirMemory {
   std::vector<double> volume;      ///< Of the cavities. [m^3]
   std::vector<double> compliance;  ///< dV/dp of the cups. [m^3/Pa]
   std::vector<double> growth;      ///< Of the volumes in the last step, at constant pressure. [m^3]
-  // What the last step's search for the pressures found.
+  // What the last step found on its way to the pressures.
+  std::vector<CupLeak> leaks;
   std::vector<double> slope;  ///< See PressureSearch. [-]
   std::vector<double> miss;   ///< Of the prediction. [Pa]
 };

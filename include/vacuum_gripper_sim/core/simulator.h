@@ -8,6 +8,7 @@
 #include "vacuum_gripper_sim/core/cup_array.h"
 #include "vacuum_gripper_sim/core/parameters.h"
 #include "vacuum_gripper_sim/core/rigid_object.h"
+#include "vacuum_gripper_sim/core/snapshot.h"
 #include "vacuum_gripper_sim/core/step_result.h"
 #include "vacuum_gripper_sim/core/tet_mesh.h"
 #include "vacuum_gripper_sim/core/vacuum_faults.h"
@@ -63,6 +64,14 @@ class Simulator {
 
   /// Rest shape at a pose, at rest, vented. Simulated time goes on; objects stay where they are.
   void Reset(const Eigen::Isometry3d& X_WM);
+
+  /// The moment after the last step.
+  Snapshot Save() const;
+  /** Takes up a moment of this or another simulator of the same cups: motion, air and objects are
+   those of the snapshot, contact forces are found anew. result() is its state at rest until the
+   next step. @throws std::invalid_argument if it is of other cups, or as SetObjects(), SetFaults().
+ */
+  void Restore(const Snapshot& snapshot);
 
   const StepResult& result() const;  ///< Of the last step, or the state at start.
   const CupArray& cups() const;
