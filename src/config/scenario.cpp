@@ -42,19 +42,20 @@ void ApplyOverrides(const std::vector<std::string>& assignments, const Directori
 }
 
 SurfaceList ReadWorld(ParameterReader* reader, const Directories& directories) {
-  const double friction = ReadFriction(reader, 0.0);
+  const SurfaceDefaults defaults = ReadSurfaceDefaults(reader);
   const YAML::Node list = reader->GetNode("surfaces");
   if (!reader->Has("scene")) {
     if (reader->Has("motions")) {
       throw std::invalid_argument("motions is set without scene; expected motion in a surface");
     }
     if (reader->Has("surfaces")) {
-      return ReadObjects(list, "surfaces", directories.scenario, friction);
+      return ReadObjects(list, "surfaces", directories.scenario, defaults);
     }
     RigidSurface ground;
     ground.name = "ground";
     ground.shape = Plane{};
-    ground.friction = friction;
+    ground.friction = defaults.friction;
+    ground.roughness = defaults.roughness;
     return {{FixedObject(ground)}, {}};
   }
   const std::string scene = reader->GetString("scene");
@@ -63,7 +64,7 @@ SurfaceList ReadWorld(ParameterReader* reader, const Directories& directories) {
                                 ": surfaces is set too; expected only one of them");
   }
   const fs::path path = (fs::path(directories.scenario) / scene).lexically_normal();
-  SurfaceList world{ReadSceneFile(path.string(), friction), {}};
+  SurfaceList world{ReadSceneFile(path.string(), defaults), {}};
   if (!reader->Has("motions")) return world;
   world.motions = ReadMotions(reader->GetNode("motions"), "motions", world.objects);
   for (const ObjectMotion& motion : world.motions) {
@@ -127,6 +128,7 @@ Scenario ReadDocument(const YAML::Node& root, const Directories& directories,
   reader.GetNode("scene");
   reader.GetNode("motions");
   reader.GetNode("friction");
+  reader.GetNode("roughness");
   scenario.object_output = reader.GetBool("object_output", false);
   reader.CheckNoUnknownKeys();  // first: a typo explains most of what follows
 

@@ -89,7 +89,7 @@ Shape ToShape(const urdf::Geometry& geometry, const std::string& link, MeshFiles
 struct Scene {
   urdf::ModelInterfaceSharedPtr model;
   const SceneXml& xml;
-  double friction;  // where the URDF says none
+  SurfaceDefaults defaults;  // where the URDF says nothing
   MeshFiles* meshes;
 };
 
@@ -108,7 +108,10 @@ std::vector<RigidSurface> ReadSurfaces(const Scene& scene, const urdf::Link& lin
     surface.name = link.name;
     surface.shape = ToShape(*collision->geometry, link.name, scene.meshes);
     surface.X_FS = ToIsometry(collision->origin);
-    surface.friction = scene.xml.Friction(link.name, surfaces.size()).value_or(scene.friction);
+    const std::size_t number = surfaces.size();
+    surface.friction = scene.xml.Friction(link.name, number).value_or(scene.defaults.friction);
+    surface.roughness = scene.defaults.roughness;
+    scene.xml.ReadAir(link.name, number, &surface);
     surfaces.push_back(std::move(surface));
   }
   return surfaces;
@@ -186,11 +189,11 @@ void Collect(const Scene& scene, const urdf::Link& link, const Eigen::Isometry3d
 }  // namespace
 
 std::vector<SceneLink> ReadSceneLinks(const std::string& xml, const std::string& directory,
-                                      double friction) {
+                                      const SurfaceDefaults& defaults) {
   const SceneXml scene_xml(xml);
   scene_xml.CheckTree();  // urdfdom leaves a cycle out and says nothing
   MeshFiles meshes(directory);
-  const Scene scene{Parse(xml), scene_xml, friction, &meshes};
+  const Scene scene{Parse(xml), scene_xml, defaults, &meshes};
   std::vector<SceneLink> links;
   Collect(scene, *scene.model->getRoot(), Eigen::Isometry3d::Identity(), nullptr, &links);
   if (links.empty()) {
@@ -202,9 +205,9 @@ std::vector<SceneLink> ReadSceneLinks(const std::string& xml, const std::string&
 }
 
 std::vector<RigidObject> ReadSceneUrdf(const std::string& xml, const std::string& directory,
-                                       double friction) {
+                                       const SurfaceDefaults& defaults) {
   std::vector<RigidObject> objects;
-  for (SceneLink& link : ReadSceneLinks(xml, directory, friction)) {
+  for (SceneLink& link : ReadSceneLinks(xml, directory, defaults)) {
     objects.push_back(std::move(link.object));
   }
   return objects;

@@ -1,8 +1,10 @@
 #include "scene_xml.h"
 
 #include <cmath>
+#include <locale>
 #include <map>
 #include <set>
+#include <sstream>
 #include <stdexcept>
 
 namespace vacuum_gripper_sim {
@@ -20,12 +22,21 @@ std::string Attribute(const XMLElement* element, const char* name) {
   throw std::invalid_argument("scene: link " + link + ": " + reason);
 }
 
-double ReadFriction(const std::string& link, const char* name, const char* text) {
-  double friction = 0.0;
-  const bool is_number = text != nullptr && tinyxml2::XMLUtil::ToDouble(text, &friction);
-  if (is_number && std::isfinite(friction) && friction >= 0.0) return friction;
-  Refuse(link, std::string("friction ") + name + " = " + (text == nullptr ? "nothing" : text) +
+/// A number of 0 or more. @param name What it is, for messages. @param text Null: nothing.
+double ReadNotNegative(const std::string& link, const std::string& name, const char* text) {
+  double value = 0.0;
+  const bool is_number = text != nullptr && tinyxml2::XMLUtil::ToDouble(text, &value);
+  if (is_number && std::isfinite(value) && value >= 0.0) return value;
+  Refuse(link, name + " = " + (text == nullptr ? "nothing" : text) +
                    "; expected a finite number of 0 or more");
+}
+
+Eigen::Vector3d ReadPlace(const std::string& link, const std::string& text) {
+  Eigen::Vector3d place = Eigen::Vector3d::Zero();
+  std::istringstream stream(text);
+  stream.imbue(std::locale::classic());
+  if (stream >> place.x() >> place.y() >> place.z() && (stream >> std::ws).eof()) return place;
+  Refuse(link, "hole xyz = " + text + "; expected three numbers");
 }
 
 struct ParentJoint {
@@ -75,8 +86,8 @@ void SceneXml::CheckTree() const {
   }
 }
 
-std::optional<double> SceneXml::Friction(const std::string& link, std::size_t collision) const {
-  if (robot_ == nullptr) return std::nullopt;
+const XMLElement* SceneXml::FindCollision(const std::string& link, std::size_t collision) const {
+  if (robot_ == nullptr) return nullptr;
   for (const XMLElement* element = robot_->FirstChildElement("link"); element != nullptr;
        element = element->NextSiblingElement("link")) {
     if (Attribute(element, "name") != link) continue;
@@ -84,14 +95,43 @@ std::optional<double> SceneXml::Friction(const std::string& link, std::size_t co
     for (std::size_t i = 0; i < collision && shape != nullptr; ++i) {
       shape = shape->NextSiblingElement("collision");
     }
-    const XMLElement* friction = shape == nullptr ? nullptr : shape->FirstChildElement("friction");
-    if (friction != nullptr) return ReadFriction(link, "mu", friction->Attribute("mu"));
+    return shape;
+  }
+  return nullptr;
+}
+
+void SceneXml::ReadAir(const std::string& link, std::size_t collision,
+                       RigidSurface* surface) const {
+  const XMLElement* const shape = FindCollision(link, collision);
+  if (shape == nullptr) return;
+  if (const XMLElement* air = shape->FirstChildElement("air")) {
+    if (const char* text = air->Attribute("roughness")) {
+      surface->roughness = ReadNotNegative(link, "air roughness", text);
+    }
+    if (const char* text = air->Attribute("permeance")) {
+      surface->permeance = ReadNotNegative(link, "air permeance", text);
+    }
+  }
+  for (const XMLElement* element = shape->FirstChildElement("hole"); element != nullptr;
+       element = element->NextSiblingElement("hole")) {
+    SurfaceHole hole;
+    hole.p_S = ReadPlace(link, Attribute(element, "xyz"));
+    hole.area = ReadNotNegative(link, "hole area", element->Attribute("area"));
+    surface->holes.push_back(hole);
+  }
+}
+
+std::optional<double> SceneXml::Friction(const std::string& link, std::size_t collision) const {
+  if (robot_ == nullptr) return std::nullopt;
+  if (const XMLElement* shape = FindCollision(link, collision)) {
+    const XMLElement* friction = shape->FirstChildElement("friction");
+    if (friction != nullptr) return ReadNotNegative(link, "friction mu", friction->Attribute("mu"));
   }
   for (const XMLElement* element = robot_->FirstChildElement("gazebo"); element != nullptr;
        element = element->NextSiblingElement("gazebo")) {
     if (Attribute(element, "reference") != link) continue;
     const XMLElement* friction = element->FirstChildElement("mu1");
-    if (friction != nullptr) return ReadFriction(link, "mu1", friction->GetText());
+    if (friction != nullptr) return ReadNotNegative(link, "friction mu1", friction->GetText());
   }
   return std::nullopt;
 }

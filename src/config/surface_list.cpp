@@ -52,6 +52,33 @@ Shape ReadShape(ParameterReader* reader, MeshFiles* meshes) {
   return Plane{};
 }
 
+std::vector<SurfaceHole> ReadHoles(const YAML::Node& node, const std::string& name) {
+  if (!node.IsSequence()) {
+    throw std::invalid_argument(name + " = " + Describe(node) + "; expected a list of holes");
+  }
+  std::vector<SurfaceHole> holes;
+  holes.reserve(node.size());
+  for (std::size_t i = 0; i < node.size(); ++i) {
+    ParameterReader reader(node[i], name + "." + std::to_string(i));
+    SurfaceHole hole;
+    hole.p_S = reader.GetVector3("position");
+    hole.area = reader.GetDouble("area");
+    reader.CheckNoUnknownKeys();
+    holes.push_back(hole);
+  }
+  return holes;
+}
+
+/// What cup and air find of the surface.
+void ReadTouch(ParameterReader* reader, const SurfaceDefaults& defaults, RigidSurface* surface) {
+  const SurfaceDefaults own = ReadSurfaceDefaults(reader, defaults);
+  surface->friction = own.friction;
+  surface->roughness = own.roughness;
+  surface->permeance = reader->GetDouble("permeance", surface->permeance);
+  const YAML::Node holes = reader->GetNode("holes");
+  if (reader->Has("holes")) surface->holes = ReadHoles(holes, reader->Name("holes"));
+}
+
 /// Free if it has a mass.
 std::optional<RigidInertia> ReadInertia(ParameterReader* reader, const Shape& shape) {
   if (!reader->Has("mass")) {
@@ -111,7 +138,7 @@ Eigen::Isometry3d ReadPose(ParameterReader* reader, std::vector<Keyframe>* motio
 }  // namespace
 
 SurfaceList ReadObjects(const YAML::Node& node, const std::string& name,
-                        const std::string& directory, double friction) {
+                        const std::string& directory, const SurfaceDefaults& defaults) {
   if (!node.IsSequence()) {
     throw std::invalid_argument(name + " = " + Describe(node) + "; expected a list of surfaces");
   }
@@ -128,7 +155,7 @@ SurfaceList ReadObjects(const YAML::Node& node, const std::string& name,
                                   " is that of another surface; expected a name of its own");
     }
     surface.shape = ReadShape(&reader, &meshes);
-    surface.friction = ReadFriction(&reader, friction);
+    ReadTouch(&reader, defaults, &surface);
     RigidObject object = FixedObject(std::move(surface));
     object.inertia = ReadInertia(&reader, object.surfaces.front().shape);
     if (object.inertia) object.velocity_W = reader.GetVector3("velocity", object.velocity_W);
@@ -172,17 +199,10 @@ std::vector<ObjectMotion> ReadMotions(const YAML::Node& node, const std::string&
   return motions;
 }
 
-double ReadFriction(ParameterReader* reader, double default_value) {
-  const double friction = reader->GetDouble("friction", default_value);
-  if (friction >= 0.0) return friction;
-  throw std::invalid_argument(reader->Name("friction") + " = " +
-                              Describe(reader->GetNode("friction")) + "; expected 0 or more [-]");
-}
-
-std::vector<RigidObject> ReadSceneFile(const std::string& path, double friction) {
+std::vector<RigidObject> ReadSceneFile(const std::string& path, const SurfaceDefaults& defaults) {
   const std::string directory = std::filesystem::absolute(path).parent_path().string();
   try {
-    return ReadSceneUrdf(ReadTextFile(path), directory, friction);
+    return ReadSceneUrdf(ReadTextFile(path), directory, defaults);
   } catch (const std::invalid_argument& e) {
     const std::string reason = e.what();
     if (reason.find(path) != std::string::npos) throw;

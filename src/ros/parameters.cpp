@@ -8,7 +8,6 @@
 #include "vacuum_gripper_sim/config/package_paths.h"
 #include "vacuum_gripper_sim/config/parameter_reader.h"
 #include "vacuum_gripper_sim/config/simulator_config.h"
-#include "vacuum_gripper_sim/config/surface_list.h"
 #include "vacuum_gripper_sim/config/vacuum_config.h"
 
 namespace vacuum_gripper_sim {
@@ -259,7 +258,7 @@ NodeParameters ReadNodeParameters(const YAML::Node& node, const std::string& cup
   if (reader.Has("scene_description")) {
     parameters.scene_description = GetText(&reader, "scene_description");
   }
-  parameters.friction = ReadFriction(&reader, 0.0);
+  parameters.surface_defaults = ReadSurfaceDefaults(&reader);
   parameters.diagnostic_period = GetPositive(&reader, "diagnostic_period", 1.0e+3);
   reader.CheckNoUnknownKeys();
   Validate(parameters.simulator);

@@ -11,6 +11,7 @@
 #include "actuator.h"
 #include "vacuum_gripper_sim/config/cup_file.h"
 #include "vacuum_gripper_sim/config/fault_list.h"
+#include "vacuum_gripper_sim/config/surface_defaults.h"
 #include "vacuum_gripper_sim/core/parameters.h"
 #include "vacuum_gripper_sim/core/vacuum_sensor.h"
 
@@ -36,7 +37,7 @@ struct NodeParameters {
   VacuumSensorParameters sensor;
   std::vector<FaultCommand> faults;  ///< From the start on.
   std::string scene_description;     ///< URDF; empty: a plane.
-  double friction{0.0};              ///< Coulomb's mu of surfaces that do not say. [-] >= 0
+  SurfaceDefaults surface_defaults;
 };
 
 /** Turns a parameter server's value into YAML, so that one strict reader serves node and tools.

@@ -28,7 +28,7 @@ VacuumGripperNode::VacuumGripperNode(const ros::NodeHandle& private_nh)
       mesh_(ReadGmsh(parameters_.cup.mesh_file)),
       simulator_(mesh_, parameters_.simulator, parameters_.X_WM),
       actuator_(parameters_.X_WM, parameters_.motion_limits, parameters_.simulator.time_step),
-      world_(parameters_.scene_description, parameters_.world_frame, parameters_.friction),
+      world_(parameters_.scene_description, parameters_.world_frame, parameters_.surface_defaults),
       faults_(private_nh, parameters_.faults, FaultList(parameters_.simulator, world_.names())),
       vacuum_state_(private_nh, parameters_.sensor, parameters_.simulator.vacuum.ambient_pressure,
                     parameters_.cup_frame),

@@ -15,18 +15,20 @@ constexpr double kGrace = 1.0;  // For a frame that is not there, before it is w
 
 }  // namespace
 
-World::World(const std::string& scene_description, const std::string& world_frame, double friction)
+World::World(const std::string& scene_description, const std::string& world_frame,
+             const SurfaceDefaults& defaults)
     : world_frame_(world_frame) {
   std::vector<SceneLink> links;
   if (scene_description.empty()) {
     RigidSurface plane{"plane", Plane{}};
-    plane.friction = friction;
+    plane.friction = defaults.friction;
+    plane.roughness = defaults.roughness;
     SceneLink ground;
     ground.object = FixedObject(std::move(plane));
     ground.object.name = world_frame;
     links.push_back(std::move(ground));
   } else {
-    links = ReadSceneLinks(scene_description, "", friction);
+    links = ReadSceneLinks(scene_description, "", defaults);
   }
   for (SceneLink& link : links) {
     PlacedLink placed;

@@ -23,9 +23,10 @@ namespace vacuum_gripper_sim {
 class World {
  public:
   /** @param scene_description URDF; empty: a plane at z = 0 of the world frame.
-      @param friction Coulomb's mu of surfaces that do not say. [-]
+      @param defaults Of surfaces that do not say.
       @throws std::invalid_argument, see ReadSceneLinks(). */
-  World(const std::string& scene_description, const std::string& world_frame, double friction);
+  World(const std::string& scene_description, const std::string& world_frame,
+        const SurfaceDefaults& defaults);
 
   /// Names of all links with something to touch, whether tf knows them or not.
   std::vector<std::string> names() const;

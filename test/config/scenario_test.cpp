@@ -73,6 +73,32 @@ surfaces:
   EXPECT_EQ(std::get<Cylinder>(scenario.objects[2].surfaces[0].shape).length, 0.06);
 }
 
+TEST_F(ScenarioFile, ReadsWhatAirFinds) {
+  const Scenario scenario = Read(std::string(kMinimal) + R"(
+roughness: 1.0e-6
+surfaces:
+  - {name: glass, type: plane}
+  - name: crate
+    type: box
+    size: [0.1, 0.1, 0.1]
+    roughness: 2.0e-6
+    permeance: 3.0e-9
+    holes: [{position: [0.01, 0.02, 0.05], area: 4.0e-6}]
+)");
+  EXPECT_EQ(scenario.objects[0].surfaces[0].roughness, 1e-6);
+  const RigidSurface& crate = scenario.objects[1].surfaces[0];
+  EXPECT_EQ(crate.roughness, 2e-6);
+  EXPECT_EQ(crate.permeance, 3e-9);
+  ASSERT_EQ(crate.holes.size(), 1U);
+  EXPECT_EQ(crate.holes[0].p_S, Eigen::Vector3d(0.01, 0.02, 0.05));
+  EXPECT_EQ(crate.holes[0].area, 4e-6);
+  const std::string surface = std::string(kMinimal) + "surfaces: [{type: plane, name: a, ";
+  EXPECT_TRUE(Contains(Error(surface + "roughness: -1.0}]"), "surfaces.0.roughness = -1.0"));
+  EXPECT_TRUE(Contains(Error(surface + "permeance: -1.0}]"), "permeance = -1"));
+  EXPECT_TRUE(Contains(Error(surface + "holes: 1}]"), "surfaces.0.holes = 1"));
+  EXPECT_TRUE(Contains(Error(surface + "holes: [{area: 1.0}]}]"), "surfaces.0.holes.0.position"));
+}
+
 TEST_F(ScenarioFile, ReadsASceneWithJoints) {
   directory_.Write("scene.urdf",
                    "<robot name=\"s\"><link name=\"world\"/><joint name=\"j\" type=\"fixed\">"

@@ -91,7 +91,7 @@ TEST(SceneUrdf, FrictionOfTheElementThenOfGazeboThenTheDefault) {
       Robot("<link name=\"table\">" + std::string(kBall) + "<friction mu=\"0.3\"/></collision>" +
             kBall + "</collision></link>" + Joint("table", "cloth", "fixed") + Ball("cloth") +
             "<gazebo reference=\"table\"><mu1>0.7</mu1><mu2>0.9</mu2></gazebo>");
-  const std::vector<RigidObject> links = ReadSceneUrdf(xml, "", 0.2);
+  const std::vector<RigidObject> links = ReadSceneUrdf(xml, "", {0.2, 0.0});
   ASSERT_EQ(links.size(), 2U);
   EXPECT_EQ(links[0].surfaces[0].friction, 0.3);
   EXPECT_EQ(links[0].surfaces[1].friction, 0.7);
@@ -108,6 +108,30 @@ TEST(SceneUrdf, RefusesFrictionThatIsNone) {
                "link ball: friction mu1 = -1"));
 }
 
+TEST(SceneUrdf, WhatAirFindsIsSaidInTheElement) {
+  const std::string xml =
+      Robot(Ball("crate",
+                 "<air roughness=\"2.0e-6\" permeance=\"1.0e-9\"/><hole xyz=\"0.1 -0.2 0.3\" "
+                 "area=\"1.0e-6\"/><hole xyz=\"0 0 0\" area=\"2.0e-6\"/>") +
+            Joint("crate", "glass", "fixed") + Ball("glass"));
+  const std::vector<RigidObject> links = ReadSceneUrdf(xml, "", {0.0, 5e-6});
+  ASSERT_EQ(links.size(), 2U);
+  const RigidSurface& crate = links[0].surfaces[0];
+  EXPECT_EQ(crate.roughness, 2e-6);
+  EXPECT_EQ(crate.permeance, 1e-9);
+  ASSERT_EQ(crate.holes.size(), 2U);
+  EXPECT_EQ(crate.holes[0].p_S, Eigen::Vector3d(0.1, -0.2, 0.3));
+  EXPECT_EQ(crate.holes[1].area, 2e-6);
+  EXPECT_EQ(links[1].surfaces[0].roughness, 5e-6);
+  EXPECT_TRUE(links[1].surfaces[0].holes.empty());
+
+  const auto error = [](const std::string& air) { return Error(Robot(Ball("crate", air))); };
+  EXPECT_TRUE(Contains(error("<air roughness=\"-1\"/>"), "link crate: air roughness = -1"));
+  EXPECT_TRUE(Contains(error("<air permeance=\"x\"/>"), "link crate: air permeance = x"));
+  EXPECT_TRUE(Contains(error("<hole xyz=\"0 0 0\"/>"), "link crate: hole area = nothing"));
+  EXPECT_TRUE(Contains(error("<hole xyz=\"0 0\" area=\"1e-6\"/>"), "link crate: hole xyz = 0 0;"));
+}
+
 TEST(SceneUrdf, FloatingLinksAreFree) {
   // Inertia axes turned by 90 degrees of yaw: its x is the link's y.
   const std::vector<SceneLink> links = ReadSceneLinks(
@@ -115,7 +139,7 @@ TEST(SceneUrdf, FloatingLinksAreFree) {
             Joint("lid", "ball", "floating", "0 0.5 0") +
             Ball("ball", "",
                  Inertial("0.2", "1e-3", "xyz=\"0.01 0 0\" rpy=\"0 0 1.5707963267948966\""))),
-      "", 0.0);
+      "", {});
   ASSERT_EQ(links.size(), 3U);
   EXPECT_FALSE(links[0].object.inertia || links[1].object.inertia);
   EXPECT_EQ(links[0].parent, "");

@@ -36,6 +36,7 @@ WRONG = {
     'max_speed': [0.0, -1.0],
     'max_angular_speed': [0.0],
     'gravity': [[0.0, 0.0], -9.81],
+    'roughness': [-1.0e-6],
     'friction': [-0.1, float('nan'), [0.5]],
     'regulator.default_pressure': [1000.0, -95000.0],
     'regulator.min_pressure': [0.0, 1.0, -200000.0],
@@ -90,7 +91,7 @@ WRONG = {
                [{'fault': 'sensor_stuck', 'target': 'a'}]],
 }
 # Not in the file: derived from the mesh or other keys, one cup, no fault, unless they are set.
-OPTIONAL = {'cups', 'faults', 'seal.close_gap', 'seal.open_gap', 'vacuum.ejector.table',
+OPTIONAL = {'cups', 'faults', 'roughness', 'seal.close_gap', 'seal.open_gap', 'vacuum.ejector.table',
             'vacuum.pump.table'}
 
 

@@ -40,8 +40,8 @@ struct Scenario {
 std::string FindScenario(const std::string& name, const std::string& share_directory);
 
 /** Reads a scenario. Its keys are explained in config/experiments/template.yaml: `name`,
- `description`, `cup`, `surfaces` or `scene`, `friction`, `object_output`, `time_step`, `duration`,
- `stop_after_loss`, `timeline`, `faults` and those of ReadSimulatorParameters() and
+ `description`, `cup`, `surfaces` or `scene`, `friction`, `roughness`, `object_output`, `time_step`,
+ `duration`, `stop_after_loss`, `timeline`, `faults` and those of ReadSimulatorParameters() and
  ReadVacuumSystem(). Without surfaces and scene
  there is a plane at z = 0.
 
