@@ -112,7 +112,7 @@ void GasSuction::Predict(const AirMemory& air, double h) {
   unaided_.resize(num_cups);
   for (std::size_t cup = 0; cup < num_cups; ++cup) {
     pressure_[cup] = air.gas.pressure(cup) - vacuum_.ambient_pressure;
-    volume_[cup] = std::max(air.volume[cup] + air.growth[cup], 0.0);
+    volume_[cup] = air.volume[cup] + air.growth[cup];
   }
   tried_pressure_ = pressure_;
   tried_volume_ = volume_;
@@ -149,9 +149,9 @@ void GasSuction::MeasureOpenCups(const Eigen::Matrix3Xd& x_W, const ContactStage
     const double pressure = air.gas.pressure(cup);
     const double volume =
         OpenVolume(cup, x_W, cavity_.area_vectors(), stage, state->classification);
-    exchanged_[cup] = pressure * (volume - air.volume[cup]);
+    exchanged_[cup] = pressure * (volume - std::max(air.volume[cup], 0.0));
     air.gas.amount[cup] += exchanged_[cup];
-    air.gas.volume[cup] += volume - air.volume[cup];
+    air.gas.volume[cup] = volume + vacuum_.line.dead_volume;
     air.volume[cup] = volume;
     air.growth[cup] = 0.0;
     air.slope[cup] = -1.0;
@@ -173,13 +173,12 @@ void GasSuction::MeasureVolumes(const Eigen::Matrix3Xd& x_W, const RigidWorld& w
     motion_W_.col(i) -= world.Displacement(object, x_W.col(node), contact.dv.bodies, h);
   }
   for (std::size_t cup = 0; cup < volume_.size(); ++cup) {
-    const double volume =
-        state.cups[cup].touches
-            ? state.air.volume[cup] + SweptVolume(surface, static_cast<int>(cup),
-                                                  state.classification.wet, motion_W_,
-                                                  cavity_.area_vectors(), areas_end_)
-            : OpenVolume(cup, contact.x_W, areas_end_, stage, state.classification);
-    volume_[cup] = std::max(volume, 0.0);
+    // Of an open cup the next step measures it: a lip that comes down does not draw air.
+    volume_[cup] = state.air.volume[cup];
+    if (state.cups[cup].touches) {
+      volume_[cup] += SweptVolume(surface, static_cast<int>(cup), state.classification.wet,
+                                  motion_W_, cavity_.area_vectors(), areas_end_);
+    }
     const double change = pressure_[cup] - tried_pressure_[cup];
     if (flows_.rounds > 1 && std::abs(change) > Tolerance(pressure_[cup])) {
       compliance_[cup] = std::max(0.0, (volume_[cup] - tried_volume_[cup]) / change);
@@ -247,7 +246,7 @@ void GasSuction::Report(double setpoint, double h, const SuctionSolution& soluti
   }
   air.gas = gas_.end;
   for (std::size_t cup = 0; cup < num_cups; ++cup) {
-    air.gas.volume[cup] = volume_[cup] + vacuum_.line.dead_volume;
+    air.gas.volume[cup] = std::max(volume_[cup], 0.0) + vacuum_.line.dead_volume;
   }
   air.source = source_.state();
   air.compliance = compliance_;

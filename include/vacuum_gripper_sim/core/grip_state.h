@@ -22,7 +22,8 @@ struct CavityState {
 struct AirMemory {
   GasState gas;
   VacuumSourceState source;
-  std::vector<double> volume;      ///< Of the cavities. [m^3]
+  std::vector<double> volume;      ///< Of the cavities; less than none where one is crushed beyond
+                                   ///< what its mesh resolves. [m^3]
   std::vector<double> compliance;  ///< dV/dp of the cups. [m^3/Pa]
   std::vector<double> growth;      ///< Of the volumes in the last step, at constant pressure. [m^3]
   // What the last step's search for the pressures found.
