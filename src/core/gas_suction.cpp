@@ -19,6 +19,8 @@ constexpr double kHoldingPart = 0.1;
 /// Part of it, and vacuum, by which it may be missed and still count as reached.
 constexpr double kReachedPart = 0.01;
 constexpr double kReached = 50.0;  // Pa
+/// How much more may be missed by a vacuum that was reached and still counts as that.
+constexpr double kStillReached = 2.0;
 /// Vacuum from which on a passive cup holds. [Pa]
 constexpr double kPassiveHolds = -100.0;
 /// Openings below which columns of air say how much there is under a cup in the air. [m]
@@ -26,6 +28,11 @@ constexpr double kMouthIsNear = 3e-3;
 
 /// Of the balance between cup and air. [Pa]
 double Tolerance(double gauge_pressure) { return 1.0 + 5e-4 * std::abs(gauge_pressure); }
+
+/// Vacuum that counts as the set-point's. [Pa]
+double Reached(double setpoint) {
+  return std::max((1.0 - kReachedPart) * setpoint, std::min(setpoint + kReached, 0.5 * setpoint));
+}
 
 double ReducedModulus(const Material& material) {
   return material.young_modulus / (1.0 - material.poisson_ratio * material.poisson_ratio);
@@ -126,7 +133,15 @@ void GasSuction::Predict(const AirMemory& air, double h) {
   }
 }
 
-/// Of a cup that touches nothing. [m^3]
+/// Whether the air in a cup is cut off: something touches its lip, or the lip floats on air that
+/// can not get out.
+bool GasSuction::IsClosed(std::size_t cup, const GripState& state) const {
+  constexpr double kCushion = 50.0;  // Pa
+  return state.cups[cup].touches || (state.cups[cup].pressure > kCushion &&
+                                     state.classification.bottleneck_gaps[cup] <= open_gap_);
+}
+
+/// Of a cup that is not closed. [m^3]
 double GasSuction::OpenVolume(std::size_t cup, const Eigen::Matrix3Xd& x_W,
                               const Eigen::Matrix3Xd& areas, const ContactStage& stage,
                               const Classification& classification) const {
@@ -145,7 +160,7 @@ void GasSuction::MeasureOpenCups(const Eigen::Matrix3Xd& x_W, const ContactStage
   AirMemory& air = state->air;
   exchanged_.assign(air.volume.size(), 0.0);
   for (std::size_t cup = 0; cup < air.volume.size(); ++cup) {
-    if (state->cups[cup].touches) continue;
+    if (IsClosed(cup, *state)) continue;
     const double pressure = air.gas.pressure(cup);
     const double volume =
         OpenVolume(cup, x_W, cavity_.area_vectors(), stage, state->classification);
@@ -175,7 +190,7 @@ void GasSuction::MeasureVolumes(const Eigen::Matrix3Xd& x_W, const RigidWorld& w
   for (std::size_t cup = 0; cup < volume_.size(); ++cup) {
     // Of an open cup the next step measures it: a lip that comes down does not draw air.
     volume_[cup] = state.air.volume[cup];
-    if (state.cups[cup].touches) {
+    if (IsClosed(cup, state)) {
       volume_[cup] += SweptVolume(surface, static_cast<int>(cup), state.classification.wet,
                                   motion_W_, cavity_.area_vectors(), areas_end_);
     }
@@ -216,7 +231,7 @@ void GasSuction::Report(double setpoint, double h, const SuctionSolution& soluti
   flows_.leak_area.resize(num_cups);
   flows_.status.resize(num_cups);
   flows_.imbalance = 0.0;
-  const bool can_hold = source_.CanHold([&](double p_abs) {
+  const bool can_hold = source_.CanHold(Reached(setpoint), [&](double p_abs) {
     double sum = 0.0;
     for (const CupLeak& leak : leaks_) sum += leak.Throughput(ambient, p_abs);
     return sum;
@@ -267,13 +282,14 @@ SealStatus GasSuction::StatusOf(std::size_t cup, double setpoint, bool can_hold,
     cavity->sealed = true;
     cavity->lost = false;
     if (is_passive) return airtight ? SealStatus::kSealed : SealStatus::kLeaking;
-    const double reached = std::max((1.0 - kReachedPart) * setpoint, setpoint + kReached);
-    if (cavity->pressure <= reached) return SealStatus::kSealed;
+    const double missed = (Reached(setpoint) - setpoint) * (cavity->reached ? kStillReached : 1.0);
+    cavity->reached = cavity->pressure <= setpoint + missed;
+    if (cavity->reached) return SealStatus::kSealed;
     return can_hold ? SealStatus::kRegulating : SealStatus::kLeaking;
   }
   if (!is_on && airtight && cavity->pressure <= -kReached) return SealStatus::kRegulating;
   if (cavity->sealed && is_on) cavity->lost = true;
-  cavity->sealed = false;
+  cavity->sealed = cavity->reached = false;
   if (cavity->lost) return SealStatus::kLost;
   // Airtight and just begun: the vacuum is on its way.
   return is_on && !is_passive && airtight && can_hold ? SealStatus::kRegulating : SealStatus::kOpen;

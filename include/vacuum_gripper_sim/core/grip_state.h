@@ -14,6 +14,7 @@ namespace vacuum_gripper_sim {
 struct CavityState {
   bool sealed{false};    ///< Airtight with the regulator at work; of a source that flows: holding.
   bool lost{false};      ///< Held in this grip and no longer does.
+  bool reached{false};   ///< Its vacuum is the set-point's.
   bool touches{false};   ///< Objects press on the cup.
   double pressure{0.0};  ///< lambda_p, gauge. [Pa]
 };
