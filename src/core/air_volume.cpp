@@ -28,20 +28,20 @@ double AirVolume(const CavitySurface& surface, int cup, const std::vector<bool>&
                  const Eigen::Vector3d& axis_W,
                  const std::function<double(const Eigen::Vector3d& p_W)>& distance) {
   const auto k = static_cast<std::size_t>(cup);
-  double mouth = 0.0;  // mean height of the wet surface's edge along the axis
-  int num_edge_points = 0;
+  double mouth = 0.0;  // mean height along the axis of the dry points next to wet ones
+  int num_mouth_points = 0;
   for (int i = surface.first_points[k]; i < surface.first_points[k + 1]; ++i) {
     const auto point = static_cast<std::size_t>(i);
     const auto& neighbours = surface.neighbours[point];
-    const bool on_edge =
-        wet[point] && std::any_of(neighbours.begin(), neighbours.end(),
-                                  [&](int n) { return !wet[static_cast<std::size_t>(n)]; });
-    if (!on_edge) continue;
+    const bool at_mouth =
+        !wet[point] && std::any_of(neighbours.begin(), neighbours.end(),
+                                   [&](int n) { return wet[static_cast<std::size_t>(n)]; });
+    if (!at_mouth) continue;
     mouth += axis_W.dot(x_W.col(surface.nodes[point]));
-    ++num_edge_points;
+    ++num_mouth_points;
   }
-  if (num_edge_points == 0) return 0.0;
-  mouth /= num_edge_points;
+  if (num_mouth_points == 0) return 0.0;
+  mouth /= num_mouth_points;
   double volume = 0.0;
   for (int i = surface.first_points[k]; i < surface.first_points[k + 1]; ++i) {
     const auto point = static_cast<std::size_t>(i);

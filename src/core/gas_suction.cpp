@@ -19,6 +19,8 @@ constexpr double kHoldingPart = 0.1;
 /// Part of it, and vacuum, by which it may be missed and still count as reached.
 constexpr double kReachedPart = 0.01;
 constexpr double kReached = 50.0;  // Pa
+/// How much more may be missed by a vacuum that was reached and still counts as that.
+constexpr double kStillReached = 2.0;
 /// Vacuum from which on a passive cup holds. [Pa]
 constexpr double kPassiveHolds = -100.0;
 /// Openings below which columns of air say how much there is under a cup in the air. [m]
@@ -26,6 +28,11 @@ constexpr double kMouthIsNear = 3e-3;
 
 /// Of the balance between cup and air. [Pa]
 double Tolerance(double gauge_pressure) { return 1.0 + 5e-4 * std::abs(gauge_pressure); }
+
+/// Vacuum that counts as the set-point's. [Pa]
+double Reached(double setpoint) {
+  return std::max((1.0 - kReachedPart) * setpoint, std::min(setpoint + kReached, 0.5 * setpoint));
+}
 
 double ReducedModulus(const Material& material) {
   return material.young_modulus / (1.0 - material.poisson_ratio * material.poisson_ratio);
@@ -114,7 +121,7 @@ void GasSuction::Predict(const AirMemory& air, double h) {
   unaided_.resize(num_cups);
   for (std::size_t cup = 0; cup < num_cups; ++cup) {
     pressure_[cup] = air.gas.pressure(cup) - vacuum_.ambient_pressure;
-    volume_[cup] = std::max(air.volume[cup] + air.growth[cup], 0.0);
+    volume_[cup] = air.volume[cup] + air.growth[cup];
   }
   tried_pressure_ = pressure_;
   tried_volume_ = volume_;
@@ -128,7 +135,15 @@ void GasSuction::Predict(const AirMemory& air, double h) {
   }
 }
 
-/// Of a cup that touches nothing. [m^3]
+/// Whether the air in a cup is cut off: something touches its lip, or the lip floats on air that
+/// can not get out.
+bool GasSuction::IsClosed(std::size_t cup, const GripState& state) const {
+  constexpr double kCushion = 50.0;  // Pa
+  return state.cups[cup].touches || (state.cups[cup].pressure > kCushion &&
+                                     state.classification.bottleneck_gaps[cup] <= open_gap_);
+}
+
+/// Of a cup that is not closed. [m^3]
 double GasSuction::OpenVolume(std::size_t cup, const Eigen::Matrix3Xd& x_W,
                               const Eigen::Matrix3Xd& areas, const ContactStage& stage,
                               const Classification& classification) const {
@@ -147,13 +162,13 @@ void GasSuction::MeasureOpenCups(const Eigen::Matrix3Xd& x_W, const ContactStage
   AirMemory& air = state->air;
   exchanged_.assign(air.volume.size(), 0.0);
   for (std::size_t cup = 0; cup < air.volume.size(); ++cup) {
-    if (state->cups[cup].touches) continue;
+    if (IsClosed(cup, *state)) continue;
     const double pressure = air.gas.pressure(cup);
     const double volume =
         OpenVolume(cup, x_W, cavity_.area_vectors(), stage, state->classification);
-    exchanged_[cup] = pressure * (volume - air.volume[cup]);
+    exchanged_[cup] = pressure * (volume - std::max(air.volume[cup], 0.0));
     air.gas.amount[cup] += exchanged_[cup];
-    air.gas.volume[cup] += volume - air.volume[cup];
+    air.gas.volume[cup] = volume + vacuum_.line.dead_volume;
     air.volume[cup] = volume;
     air.growth[cup] = 0.0;
     air.slope[cup] = -1.0;
@@ -175,13 +190,12 @@ void GasSuction::MeasureVolumes(const Eigen::Matrix3Xd& x_W, const RigidWorld& w
     motion_W_.col(i) -= world.Displacement(object, x_W.col(node), contact.dv.bodies, h);
   }
   for (std::size_t cup = 0; cup < volume_.size(); ++cup) {
-    const double volume =
-        state.cups[cup].touches
-            ? state.air.volume[cup] + SweptVolume(surface, static_cast<int>(cup),
-                                                  state.classification.wet, motion_W_,
-                                                  cavity_.area_vectors(), areas_end_)
-            : OpenVolume(cup, contact.x_W, areas_end_, stage, state.classification);
-    volume_[cup] = std::max(volume, 0.0);
+    // Of an open cup the next step measures it: a lip that comes down does not draw air.
+    volume_[cup] = state.air.volume[cup];
+    if (IsClosed(cup, state)) {
+      volume_[cup] += SweptVolume(surface, static_cast<int>(cup), state.classification.wet,
+                                  motion_W_, cavity_.area_vectors(), areas_end_);
+    }
     const double change = pressure_[cup] - tried_pressure_[cup];
     if (flows_.rounds > 1 && std::abs(change) > Tolerance(pressure_[cup])) {
       compliance_[cup] = std::max(0.0, (volume_[cup] - tried_volume_[cup]) / change);
@@ -219,7 +233,7 @@ void GasSuction::Report(double setpoint, double h, const SuctionSolution& soluti
   flows_.leak_area.resize(num_cups);
   flows_.status.resize(num_cups);
   flows_.imbalance = 0.0;
-  const bool can_hold = source_.CanHold([&](double p_abs) {
+  const bool can_hold = source_.CanHold(Reached(setpoint), [&](double p_abs) {
     double sum = 0.0;
     for (const CupLeak& leak : leaks_) sum += leak.Throughput(ambient, p_abs);
     return sum;
@@ -249,7 +263,7 @@ void GasSuction::Report(double setpoint, double h, const SuctionSolution& soluti
   }
   air.gas = gas_.end;
   for (std::size_t cup = 0; cup < num_cups; ++cup) {
-    air.gas.volume[cup] = volume_[cup] + vacuum_.line.dead_volume;
+    air.gas.volume[cup] = std::max(volume_[cup], 0.0) + vacuum_.line.dead_volume;
   }
   air.source = source_.state();
   air.compliance = compliance_;
@@ -271,13 +285,14 @@ SealStatus GasSuction::StatusOf(std::size_t cup, double setpoint, bool can_hold,
     cavity->sealed = true;
     cavity->lost = false;
     if (is_passive) return airtight ? SealStatus::kSealed : SealStatus::kLeaking;
-    const double reached = std::max((1.0 - kReachedPart) * setpoint, setpoint + kReached);
-    if (cavity->pressure <= reached) return SealStatus::kSealed;
+    const double missed = (Reached(setpoint) - setpoint) * (cavity->reached ? kStillReached : 1.0);
+    cavity->reached = cavity->pressure <= setpoint + missed;
+    if (cavity->reached) return SealStatus::kSealed;
     return can_hold ? SealStatus::kRegulating : SealStatus::kLeaking;
   }
   if (!is_on && airtight && cavity->pressure <= -kReached) return SealStatus::kRegulating;
   if (cavity->sealed && is_on) cavity->lost = true;
-  cavity->sealed = false;
+  cavity->sealed = cavity->reached = false;
   if (cavity->lost) return SealStatus::kLost;
   // Airtight and just begun: the vacuum is on its way.
   return is_on && !is_passive && airtight && can_hold ? SealStatus::kRegulating : SealStatus::kOpen;

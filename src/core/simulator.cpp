@@ -161,6 +161,7 @@ void Simulator::Implementation::Reset(const Eigen::Isometry3d& X_WM) {
   result_.classification = state_.grip.classification;
   if (gas_suction_) {
     state_.grip.air = gas_suction_->AtRest(state_.x_W, result_.classification.wet);
+    result_.gas_amount = state_.grip.air.gas.total_amount();
   }
   result_.cups.assign(cups_.mounts.size(), CupResult());
   ReportCups();
@@ -386,6 +387,7 @@ void Simulator::Implementation::ReportAir() {
   result_.source_flow = flows.source_flow;
   result_.gas_imbalance = flows.imbalance;
   result_.gas_rounds = flows.rounds;
+  result_.gas_amount = state_.grip.air.gas.total_amount();
   for (std::size_t cup = 0; cup < result_.cups.size(); ++cup) {
     result_.cups[cup].status = flows.status[cup];
     result_.cups[cup].leak_flow = flows.leak_flow[cup];
@@ -406,7 +408,7 @@ void Simulator::Implementation::ReportCups() {
     const CavitySize size =
         SizeOfCavity(cups_.cavities, k, result_.classification.wet, state_.x_W, area_vectors_);
     result.cavity_area = std::abs(size.area_W.dot(result.X_WC.linear().col(2)));
-    result.cavity_volume = gas_suction_ ? state_.grip.air.volume[cup] : size.volume;
+    result.cavity_volume = gas_suction_ ? std::max(state_.grip.air.volume[cup], 0.0) : size.volume;
     result.zone_counts = CountZones(cups_.cavities, k, result_.classification.zones);
   }
   static_cast<GripSummary&>(result_) = SumOf(result_.cups);

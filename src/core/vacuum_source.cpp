@@ -126,9 +126,10 @@ double VacuumSource::Throughput(double p_abs, double time) const {
   }
 }
 
-bool VacuumSource::CanHold(const std::function<double(double p_abs)>& leak) const {
-  const double p_abs = parameters_.ambient_pressure + setpoint_;
-  return setpoint_ < 0.0 && p_abs > 0.0 && leak(p_abs) < Capacity(p_abs);
+bool VacuumSource::CanHold(double gauge_pressure,
+                           const std::function<double(double p_abs)>& leak) const {
+  const double p_abs = parameters_.ambient_pressure + gauge_pressure;
+  return gauge_pressure < 0.0 && p_abs > 0.0 && leak(p_abs) < Capacity(p_abs);
 }
 
 }  // namespace vacuum_gripper_sim

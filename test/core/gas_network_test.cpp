@@ -199,8 +199,9 @@ TEST(GasNetwork, EjectorSettlesWhereItsCurveMeetsTheLeak) {
     ASSERT_LT(kAmbient + gauge, 0.528 * kAmbient);
     EXPECT_NEAR(solution.pressure[0] - kAmbient, gauge, 0.005 * -gauge);
     EXPECT_NEAR(solution.leak_flow[0], -solution.source_flow, 1e-6 * solution.leak_flow[0]);
-    EXPECT_TRUE(source.CanHold([&](double p) { return OrificeThroughput(area, kAmbient, p); }) ==
-                (gauge < -6e4));
+    EXPECT_TRUE(source.CanHold(-6e4, [&](double p) {
+      return OrificeThroughput(area, kAmbient, p);
+    }) == (gauge < -6e4));
   }
 }
 

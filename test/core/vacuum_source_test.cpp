@@ -235,17 +235,16 @@ TEST(VacuumSource, RegulatorsValveIsSteepAndSaturates) {
 
 TEST(VacuumSource, HoldsALeakSmallerThanItsFlowThere) {
   VacuumSource source(Parameters(VacuumSourceType::kEjector));
-  source.Begin(-42.5e3, 0.1);
   const double drawn = 1e-4 * kAmbient;
-  EXPECT_TRUE(source.CanHold([&](double) { return 0.99 * drawn; }));
-  EXPECT_FALSE(source.CanHold([&](double) { return 1.01 * drawn; }));
+  EXPECT_TRUE(source.CanHold(-42.5e3, [&](double) { return 0.99 * drawn; }));
+  EXPECT_FALSE(source.CanHold(-42.5e3, [&](double) { return 1.01 * drawn; }));
   source.SetPumpLost(true);
-  EXPECT_FALSE(source.CanHold([](double) { return 0.0; }));
+  const auto tight = [](double) { return 0.0; };
+  EXPECT_FALSE(source.CanHold(-42.5e3, tight));
   source.SetPumpLost(false);
-  source.Begin(-86e3, 0.1);  // beyond the ultimate vacuum
-  EXPECT_FALSE(source.CanHold([](double) { return 0.0; }));
-  source.Begin(0.0, 0.1);
-  EXPECT_FALSE(source.CanHold([](double) { return 0.0; }));
+  EXPECT_TRUE(source.CanHold(-42.5e3, tight));
+  EXPECT_FALSE(source.CanHold(-86e3, tight));  // beyond the ultimate vacuum
+  EXPECT_FALSE(source.CanHold(0.0, tight));
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <utility>
 #include <vector>
 
@@ -75,6 +76,7 @@ class GripWorld {
     time_spent += result().timings.total;
     ++steps;
     linear_iterations += result().linear_iterations;
+    if (after_step) after_step(result());
   }
   const StepResult& result() const { return simulator_.result(); }
   const ObjectResult& object(int i) const { return result().objects[static_cast<std::size_t>(i)]; }
@@ -88,6 +90,7 @@ class GripWorld {
   int linear_iterations{0};
   double time_spent{0.0};
   double max_penetration{0.0};
+  std::function<void(const StepResult&)> after_step;  ///< Called with every step's result.
 
  private:
   static Eigen::Isometry3d Down(const Eigen::Vector3d& mount) {

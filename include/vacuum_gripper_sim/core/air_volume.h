@@ -10,7 +10,8 @@ namespace vacuum_gripper_sim {
 
 /** Air between a cup and what lies before it, in columns along the suction axis: by the divergence
  theorem the sum over the wet points of their height over the object times their projected area. A
- column ends at the first object, or on the plane across the edge of the wet points.
+ column ends at the first object, or on the plane across the dry points next to wet ones: the ring
+ that touches first.
  @param wet By point. @param x_W Positions of all mesh nodes, 3 by #nodes. [m]
  @param area_vectors Of the points, see PointAreaVectors(). [m^2]
  @param axis_W Unit vector out of the cup. @param distance Of a point to the nearest surface; +inf

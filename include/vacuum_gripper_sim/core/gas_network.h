@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstddef>
 #include <functional>
+#include <numeric>
 #include <vector>
 
 #include "vacuum_gripper_sim/core/vacuum_parameters.h"
@@ -20,6 +22,9 @@ struct GasState {
   std::vector<double> volume;   ///< V of each cup with its line. [m^3]
   double manifold_amount{0.0};  ///< [Pa m^3]
 
+  double total_amount() const {
+    return std::accumulate(amount.begin(), amount.end(), manifold_amount);
+  }
   double pressure(std::size_t k) const { return amount[k] / volume[k]; }  ///< Absolute. [Pa]
 };
 

@@ -76,6 +76,7 @@ class GasSuction {
 
  private:
   void Predict(const AirMemory& air, double h);
+  bool IsClosed(std::size_t cup, const GripState& state) const;
   double OpenVolume(std::size_t cup, const Eigen::Matrix3Xd& x_W, const Eigen::Matrix3Xd& areas,
                     const ContactStage& stage, const Classification& classification) const;
   void MeasureOpenCups(const Eigen::Matrix3Xd& x_W, const ContactStage& stage, GripState* state);

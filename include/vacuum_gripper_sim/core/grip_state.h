@@ -15,6 +15,7 @@ namespace vacuum_gripper_sim {
 struct CavityState {
   bool sealed{false};    ///< Airtight with the regulator at work; of a source that flows: holding.
   bool lost{false};      ///< Held in this grip and no longer does.
+  bool reached{false};   ///< Its vacuum is the set-point's.
   bool touches{false};   ///< Objects press on the cup.
   double pressure{0.0};  ///< lambda_p, gauge. [Pa]
 };
@@ -23,7 +24,8 @@ struct CavityState {
 struct AirMemory {
   GasState gas;
   VacuumSourceState source;
-  std::vector<double> volume;      ///< Of the cavities. [m^3]
+  std::vector<double> volume;      ///< Of the cavities; less than none where one is crushed beyond
+                                   ///< what its mesh resolves. [m^3]
   std::vector<double> compliance;  ///< dV/dp of the cups. [m^3/Pa]
   std::vector<double> growth;      ///< Of the volumes in the last step, at constant pressure. [m^3]
   // What the last step found on its way to the pressures.

@@ -108,9 +108,11 @@ struct StepResult : GripSummary {
   double gas_imbalance{0.0};      ///< Largest difference of the pressure on a cup and of its air.
                                   ///< [Pa]
   int gas_rounds{0};              ///< Solves of the cups that it took to balance their air.
-  std::vector<CupResult> cups;    ///< In the order of SimulatorParameters::cups.
-  double fold_force{0.0};         ///< Sum of the normal forces where cups touch themselves. [N]
-  double friction_force{0.0};     ///< Size of the tangential forces' sum. [N]
+  double gas_amount{0.0};  ///< Of the air in cups, lines and manifold, p V: a step changes it by
+                           ///< h p_ambient (leak_flow - source_flow). [Pa m^3]
+  std::vector<CupResult> cups;      ///< In the order of SimulatorParameters::cups.
+  double fold_force{0.0};           ///< Sum of the normal forces where cups touch themselves. [N]
+  double friction_force{0.0};       ///< Size of the tangential forces' sum. [N]
   std::uint32_t num_candidates{0};  ///< Contact constraints in the problem.
   double max_penetration{0.0};      ///< Over all free surface nodes, >= 0. [m]
 

@@ -69,10 +69,11 @@ class VacuumSource {
   /// [Pa m^3/s] >= 0
   double Capacity(double p_abs) const;
 
-  /** Whether the source, switched on, can hold the set-point against a leak: that takes out more
-   than comes in there. A closed port takes out nothing and never can.
+  /** Whether the source, switched on, can hold a vacuum against a leak: that takes out more than
+   comes in there. A closed port takes out nothing and never can.
+   @param gauge_pressure Of the vacuum; without any, at 0 Pa, none is held. [Pa]
    @param leak Throughput into the cavity at its absolute pressure. [Pa m^3/s] */
-  bool CanHold(const std::function<double(double p_abs)>& leak) const;
+  bool CanHold(double gauge_pressure, const std::function<double(double p_abs)>& leak) const;
 
   /// Whether the source draws at the step's end, as its valve is; pilots check valves.
   bool on() const { return state_.phase == ValvePhase::kOn; }
