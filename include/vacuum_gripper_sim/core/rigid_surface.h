@@ -48,9 +48,9 @@ struct RigidSurface {
   Eigen::Isometry3d X_FS{Eigen::Isometry3d::Identity()};  ///< Pose of S in F.
   double friction{0.0};                                   ///< Coulomb's mu. [-] >= 0
   // What air finds, where the gripper's source flows.
-  double roughness{0.0};           ///< h_rms of its heights, see HydraulicGap(). [m] >= 0
-  double permeance{0.0};           ///< k / (mu L) of a porous wall, 0: tight. [m/(Pa s)] >= 0
-  std::vector<SurfaceHole> holes;  ///< Through it.
+  double roughness{0.0};             ///< h_rms of its heights, see HydraulicGap(). [m] >= 0
+  double permeance{0.0};             ///< k / (mu L) of a porous wall, 0: tight. [m/(Pa s)] >= 0
+  std::vector<SurfaceHole> holes{};  ///< Through it.
 };
 
 /// What a point sees of a surface.
