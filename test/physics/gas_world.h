@@ -12,7 +12,7 @@
 
 namespace vacuum_gripper_sim {
 
-constexpr double kAmbient = air::kAmbientPressure;                       ///< [Pa]
+constexpr double kAmbient = air::kAmbientPressure;                      ///< [Pa]
 inline const Eigen::Vector3d kAbovePlate{0.0, 0.0, kCupLength + 5e-4};  ///< Mount at the start. [m]
 
 inline SimulatorParameters WithSource(VacuumSourceType source, double h = 0.01) {
