@@ -129,6 +129,8 @@ SurfaceList ReadObjects(const YAML::Node& node, const std::string& name,
     }
     surface.shape = ReadShape(&reader, &meshes);
     surface.friction = ReadFriction(&reader, friction);
+    surface.roughness = reader.GetDouble("roughness", surface.roughness);
+    surface.permeance = reader.GetDouble("permeance", surface.permeance);
     RigidObject object = FixedObject(std::move(surface));
     object.inertia = ReadInertia(&reader, object.surfaces.front().shape);
     if (object.inertia) object.velocity_W = reader.GetVector3("velocity", object.velocity_W);
