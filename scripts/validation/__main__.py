@@ -9,14 +9,14 @@ import time
 from . import csv_files, meshes, report
 from .grip import Grip
 from .origin import origin
-from .parts import (convergence, cost, force, geometry, loss, reference, seal, sweep,
+from .parts import (convergence, cost, force, geometry, loss, measured, reference, seal, sweep,
                     wrinkles)
 from .progress import Progress
 from .results import Results
 from .runner import Runner
 
 PARTS = {part.NAME: part for part in (reference, geometry, force, sweep, convergence, cost, seal,
-                                      loss, wrinkles)}
+                                      loss, wrinkles, measured)}
 
 
 def count(text):
