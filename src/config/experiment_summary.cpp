@@ -78,8 +78,7 @@ void SummaryAccumulator::Add(const StepResult& result) {
 }
 
 void SummaryAccumulator::AddSeal(const StepResult& result) {
-  const bool holds =
-      result.status == SealStatus::kSealed || result.status == SealStatus::kRegulating;
+  const bool holds = Holds(result.status);
   if (holds != holds_) ++summary_.seal_flips;
   if (holds && !summary_.sealed_at) summary_.sealed_at = result.time;
   if (result.status == SealStatus::kLost && status_ != SealStatus::kLost && !summary_.lost_at) {

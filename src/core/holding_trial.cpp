@@ -18,11 +18,6 @@ constexpr double kLongestSlide = 5e-3;  // m; sliding, a grip bears no more than
 /// lever where it is a moment, has no direction: meshes are not quite round.
 constexpr double kNoLoad = 0.02;
 
-bool Holds(SealStatus status) {
-  return status == SealStatus::kSealed || status == SealStatus::kRegulating ||
-         status == SealStatus::kLeaking;
-}
-
 /// The part of v across z, or x if that is less than `none`; a unit vector.
 Vector3d DirectionAcross(const Vector3d& v, double none) {
   const Vector3d across(v.x(), v.y(), 0.0);

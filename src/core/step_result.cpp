@@ -20,6 +20,11 @@ const char* NameOf(SealStatus status) {
   return "unknown";
 }
 
+bool Holds(SealStatus status) {
+  return status == SealStatus::kSealed || status == SealStatus::kRegulating ||
+         status == SealStatus::kLeaking;
+}
+
 GripSummary SumOf(const std::vector<CupResult>& cups) {
   GripSummary sum;
   const auto count = [&](SealStatus status) {

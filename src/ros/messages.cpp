@@ -163,9 +163,7 @@ ContactWrenches ToContactWrenches(const StepResult& result, const std::vector<Ri
 }
 
 bool IsGrasping(const GripSummary& grip) {
-  const bool holds = grip.status == SealStatus::kSealed || grip.status == SealStatus::kRegulating ||
-                     grip.status == SealStatus::kLeaking;
-  return holds && grip.gauge_pressure < 0.0;
+  return Holds(grip.status) && grip.gauge_pressure < 0.0;
 }
 
 }  // namespace vacuum_gripper_sim

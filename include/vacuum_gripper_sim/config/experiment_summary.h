@@ -23,7 +23,7 @@ struct FreeObjectSummary {
 
 /// The figures of one experiment. Empty where the event did not happen.
 struct ExperimentSummary {
-  std::optional<double> sealed_at;   ///< First time the grip held (SEALED or REGULATING). [s]
+  std::optional<double> sealed_at;   ///< First time the grip held, see Holds(). [s]
   std::optional<double> lost_at;     ///< First time the status became LOST. [s]
   std::optional<double> hold_force;  ///< |Force along the approach axis| in the last step before
                                      ///< the first upward motion, or of all. [N]

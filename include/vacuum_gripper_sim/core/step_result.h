@@ -29,6 +29,8 @@ enum class SealStatus : std::uint8_t {
 };
 /// For people: "open", "sealed", "regulating", "lost", "leaking".
 const char* NameOf(SealStatus status);
+/// Whether the grip lasts: SEALED, REGULATING or LEAKING.
+bool Holds(SealStatus status);
 
 /// How a step ended. Failure is data, not an exception: the loop keeps its rate and reports it.
 enum class StepOutcome {
