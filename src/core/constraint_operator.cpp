@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <limits>
+#include <utility>
 
 namespace vacuum_gripper_sim {
 namespace {
@@ -101,16 +102,14 @@ std::vector<std::size_t> ConstraintOperator::FindGroups(const std::vector<Contac
     }
   };
   constexpr std::size_t kNowhere = std::numeric_limits<std::size_t>::max();
-  std::vector<std::size_t> piece_of_contact;
-  piece_of_contact.reserve(contacts.size());
-  for (const Contact& contact : contacts) {
-    piece_of_contact.push_back(kNowhere);
-    for (int k = 0; k < contact.num_nodes; ++k) {
-      const int row = system_->FreeRow(contact.nodes[static_cast<std::size_t>(k)]);
+  std::vector<std::size_t> groups(contacts.size(), kNowhere);  // for now a piece of each contact
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    for (int k = 0; k < contacts[i].num_nodes; ++k) {
+      const int row = system_->FreeRow(contacts[i].nodes[static_cast<std::size_t>(k)]);
       if (row < 0) continue;
       const std::size_t piece = PieceIndex(row);
-      if (piece_of_contact.back() == kNowhere) piece_of_contact.back() = piece;
-      merge(pieces_[piece_of_contact.back()].group, pieces_[piece].group);
+      if (groups[i] == kNowhere) groups[i] = piece;
+      merge(pieces_[groups[i]].group, pieces_[piece].group);
     }
   }
   std::size_t num_groups = 0;
@@ -118,10 +117,8 @@ std::vector<std::size_t> ConstraintOperator::FindGroups(const std::vector<Contac
     pieces_[p].group = pieces_[p].group == p ? num_groups++ : pieces_[pieces_[p].group].group;
   }
   between_bodies_ = num_groups;
-  std::vector<std::size_t> groups;
-  groups.reserve(contacts.size());
-  for (const std::size_t piece : piece_of_contact) {
-    groups.push_back(piece == kNowhere ? num_groups++ : pieces_[piece].group);
+  for (std::size_t& group : groups) {
+    group = group == kNowhere ? num_groups++ : pieces_[group].group;
   }
   W_.groups.resize(num_groups);
   return groups;
@@ -129,17 +126,18 @@ std::vector<std::size_t> ConstraintOperator::FindGroups(const std::vector<Contac
 
 void ConstraintOperator::SetRows(const std::vector<Contact>& contacts) {
   const std::vector<std::size_t> groups = FindGroups(contacts);
-  std::vector<Index> next(W_.groups.size(), 0);  // rows of each group so far
+  for (ContactCompliance::Group& group : W_.groups) group.first = 0;  // for now its rows so far
   rows_.clear();
   for (std::size_t i = 0; i < contacts.size(); ++i) {
-    rows_.push_back({next[groups[i]], contacts[i].friction});
-    next[groups[i]] += rows_.back().size();
+    Index& next = W_.groups[groups[i]].first;
+    rows_.push_back({next, contacts[i].friction});
+    next += rows_.back().size();
   }
   Index first = 0;
-  for (std::size_t g = 0; g < W_.groups.size(); ++g) {
-    W_.groups[g].first = first;
-    W_.groups[g].C.resize(next[g], next[g]);
-    first += next[g];
+  for (ContactCompliance::Group& group : W_.groups) {
+    const Index size = std::exchange(group.first, first);
+    group.C.resize(size, size);
+    first += size;
   }
   for (std::size_t i = 0; i < contacts.size(); ++i) rows_[i].normal += W_.groups[groups[i]].first;
 }
@@ -249,21 +247,28 @@ VectorXd ConstraintOperator::GapChanges(const SystemVector& y) const {
   return changes;
 }
 
-/// The forces on a piece's columns.
-VectorXd ConstraintOperator::OnColumns(const VectorXd& lambda, const Piece& piece) const {
-  const ContactCompliance::Group& group = W_.groups[piece.group];
-  if (plain_) return lambda.segment(group.first, group.size());
-  return piece.H.transpose() * lambda.segment(group.first, group.size());
-}
-
 void ConstraintOperator::AddForces(const VectorXd& lambda, SystemVector* y) const {
-  for (const Piece& piece : pieces_) piece.compliance.AddForces(OnColumns(lambda, piece), &y->cup);
+  for (const Piece& piece : pieces_) {
+    const ContactCompliance::Group& group = W_.groups[piece.group];
+    const auto of_group = lambda.segment(group.first, group.size());
+    if (plain_) {
+      piece.compliance.AddForces(of_group, &y->cup);
+    } else {
+      piece.compliance.AddForces(piece.H.transpose() * of_group, &y->cup);
+    }
+  }
   if (!plain_) y->bodies += BodyVelocities(h_ * J_.transpose() * lambda);
 }
 
 void ConstraintOperator::AddImpulses(const VectorXd& lambda, SystemVector* b) const {
   for (const Piece& piece : pieces_) {
-    piece.compliance.AddImpulses(OnColumns(lambda, piece), &b->cup);
+    const ContactCompliance::Group& group = W_.groups[piece.group];
+    const auto of_group = lambda.segment(group.first, group.size());
+    if (plain_) {
+      piece.compliance.AddImpulses(of_group, &b->cup);
+    } else {
+      piece.compliance.AddImpulses(piece.H.transpose() * of_group, &b->cup);
+    }
   }
   if (!plain_) b->bodies += h_ * J_.transpose() * lambda;
 }

@@ -213,15 +213,24 @@ McpStatistics SolveTogether(const ContactCompliance& W, const VectorXd& delta,
   return statistics;
 }
 
-/// The contacts of one group, their rows counted from its first.
-std::vector<ContactRows> RowsWithin(const ContactCompliance::Group& group,
-                                    const std::vector<ContactRows>& rows) {
-  std::vector<ContactRows> within;
+/// Contacts of a group that feels no other.
+McpStatistics SolveAlone(const ContactCompliance::Group& group, const VectorXd& delta,
+                         const std::vector<ContactRows>& rows, const ContactParameters& parameters,
+                         VectorXd* lambda) {
+  const auto is_within = [&](const ContactRows& contact) {
+    return contact.normal >= group.first && contact.normal < group.first + group.size();
+  };
+  const bool has_friction = std::any_of(rows.begin(), rows.end(), [&](const ContactRows& contact) {
+    return contact.has_tangents() && is_within(contact);
+  });
+  if (!has_friction) return SolveContacts(group.C, delta, parameters, lambda);
+  std::vector<ContactRows> rows_within;  // counted from the group's first
   for (const ContactRows& contact : rows) {
-    if (contact.normal < group.first || contact.normal >= group.first + group.size()) continue;
-    within.push_back({contact.normal - group.first, contact.friction});
+    if (!is_within(contact)) continue;
+    rows_within.push_back({contact.normal - group.first, contact.friction});
   }
-  return within;
+  const ContactCompliance C{{{0, group.C}}, ContactCompliance::RowMajorMatrix(group.size(), 0)};
+  return SolveTogether(C, delta, rows_within, parameters, lambda);
 }
 
 }  // namespace
@@ -237,19 +246,12 @@ McpStatistics SolveContactGroups(const ContactCompliance& W, const VectorXd& del
         "SolveContactGroups: W, delta, lambda and the contacts' rows must agree in size");
   }
   if (W.coupled()) return SolveTogether(W, delta, rows, parameters, lambda);
+  if (W.groups.size() == 1) return SolveAlone(W.groups[0], delta, rows, parameters, lambda);
   McpStatistics statistics;
   for (const ContactCompliance::Group& group : W.groups) {
-    const VectorXd delta_of_group = delta.segment(group.first, group.size());
     VectorXd forces = lambda->segment(group.first, group.size());
-    const std::vector<ContactRows> rows_within = RowsWithin(group, rows);
-    const bool has_friction =
-        std::any_of(rows_within.begin(), rows_within.end(),
-                    [](const ContactRows& contact) { return contact.has_tangents(); });
     const McpStatistics of_group =
-        has_friction
-            ? SolveTogether({{{0, group.C}}, ContactCompliance::RowMajorMatrix(group.size(), 0)},
-                            delta_of_group, rows_within, parameters, &forces)
-            : SolveContacts(group.C, delta_of_group, parameters, &forces);
+        SolveAlone(group, delta.segment(group.first, group.size()), rows, parameters, &forces);
     lambda->segment(group.first, group.size()) = forces;
     statistics.converged = statistics.converged && of_group.converged;
     statistics.iterations = std::max(statistics.iterations, of_group.iterations);

@@ -99,7 +99,6 @@ class ConstraintOperator {
   void SetH(const std::vector<Contact>& contacts);
   void AddBodyEntries(const Contact& contact, int object, double sign, const ContactRows& rows);
   void UpdateW();
-  Eigen::VectorXd OnColumns(const Eigen::VectorXd& lambda, const Piece& piece) const;
 
   const ImplicitEuler* system_;
   const SparseCholesky* factorization_{nullptr};
