@@ -56,7 +56,7 @@ bool LinearizedContacts::Factorize(Group* group) const {
       C_EE(i, j) = C(held[static_cast<std::size_t>(i)] - first, column);
     }
   }
-  group->C_EE = FactorOfContacts(C_EE);
+  group->C_EE = FactorOfContacts(C_EE, &group->share);
   if (group->C_EE.info() != Eigen::Success) return false;
   if (num_sliding == 0) return true;
 
@@ -138,11 +138,16 @@ VectorXd LinearizedContacts::Solve(VectorXd right) const {
   return right;
 }
 
-/// right - K lambda; whatever in rows that are not in K.
+/// right - K lambda, K with the larger diagonal; whatever in rows that are not in K. Without that,
+/// refining would blow up forces that W does not determine.
 VectorXd LinearizedContacts::Residual(const VectorXd& right, const VectorXd& lambda) const {
   VectorXd product = W_->Times(lambda);
   ApplyQ(&product);
   for (const Group& group : groups_) {
+    for (const Index row : group.held) {
+      const Index place = row - group.own->first;
+      product(row) += group.share * group.own->C(place, place) * lambda(row);
+    }
     for (const SlidingContact& contact : group.sliding) {
       const Eigen::Vector2d force = lambda.segment<2>(contact.tangent);
       product.segment<2>(contact.tangent) +=

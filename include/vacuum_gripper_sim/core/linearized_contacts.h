@@ -50,6 +50,7 @@ class LinearizedContacts {
     const ContactCompliance::Group* own{nullptr};
     std::vector<Eigen::Index> held;  // rows of W
     std::vector<SlidingContact> sliding;
+    double share{0.0};                 // by which the diagonal of C_EE is larger
     Eigen::LLT<Eigen::MatrixXd> C_EE;  // E: held, S: sliding tangents
     Eigen::MatrixXd inverse_C_ES;      // C_EE^-1 C_ES
     Eigen::MatrixXd B_SE;
