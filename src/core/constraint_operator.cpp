@@ -4,6 +4,8 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cstddef>
+#include <limits>
+#include <utility>
 
 namespace vacuum_gripper_sim {
 namespace {
@@ -22,19 +24,18 @@ using Eigen::VectorXd;
 
 void ConstraintOperator::Reset(const SparseCholesky& factorization, const RigidWorld& world,
                                double h) {
+  factorization_ = &factorization;
   world_ = &world;
   h_ = h;
-  cup_.Reset(factorization, h);
-  plain_column_.clear();
+  pieces_.resize(static_cast<std::size_t>(factorization.num_pieces()));
+  for (Piece& piece : pieces_) piece.compliance.Reset(factorization, h);
+  plain_columns_.clear();
   columns_of_.clear();
-  num_columns_ = 0;
-  plain_ = true;
-  num_rows_ = 0;
-  rows_.clear();
   bodies_.clear();
   for (int body = 0; body < world.num_bodies(); ++body) {
     bodies_.push_back({world.CentreOfMass(body), world.Mass(body), world.Mass(body).inverse()});
   }
+  SetContacts({});
 }
 
 bool ConstraintOperator::MayBePlain(const Contact& contact) const {
@@ -54,77 +55,126 @@ Eigen::Matrix3d ConstraintOperator::Axes(const Contact& contact) {
 
 void ConstraintOperator::SetContacts(const std::vector<Contact>& contacts) {
   AddColumns(contacts);
-  plain_ = std::all_of(plain_column_.begin(), plain_column_.end(),
-                       [](int column) { return column >= 0; });
+  plain_ = std::all_of(plain_columns_.begin(), plain_columns_.end(),
+                       [](const Column& column) { return column.index >= 0; });
   SetRows(contacts);
-  if (!plain_) UpdateW();
+  if (!plain_) SetH(contacts);
+  UpdateW();
 }
 
 void ConstraintOperator::AddColumns(const std::vector<Contact>& contacts) {
-  new_columns_.clear();
-  const auto next_column = [&] { return num_columns_ + static_cast<int>(new_columns_.size()); };
+  const auto column_at = [&](int free_row) {
+    return Column{static_cast<int>(PieceIndex(free_row)), PieceOf(free_row).next_column()};
+  };
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     const Contact& contact = contacts[i];
-    if (i >= plain_column_.size()) {
-      plain_column_.push_back(MayBePlain(contact) ? next_column() : -1);
+    if (i >= plain_columns_.size()) {
+      plain_columns_.emplace_back();
       if (MayBePlain(contact)) {
-        new_columns_.push_back({system_->FreeRow(contact.nodes[0]) / 3, contact.normal});
+        const int row = system_->FreeRow(contact.nodes[0]);
+        plain_columns_.back() = column_at(row);
+        PieceOf(row).new_columns.push_back({row / 3, contact.normal});
       }
     }
     if (IsPlain(i)) continue;
     for (int k = 0; k < contact.num_nodes; ++k) {
       const int node = contact.nodes[static_cast<std::size_t>(k)];
       const int row = system_->FreeRow(node);
-      if (row < 0 || !columns_of_.emplace(node, next_column()).second) continue;
+      if (row < 0 || !columns_of_.emplace(node, column_at(row)).second) continue;
       for (int axis = 0; axis < 3; ++axis) {
-        new_columns_.push_back({row / 3, Eigen::Vector3d::Unit(axis)});
+        PieceOf(row).new_columns.push_back({row / 3, Eigen::Vector3d::Unit(axis)});
       }
     }
   }
-  cup_.Append(new_columns_);
-  num_columns_ += static_cast<int>(new_columns_.size());
+  for (Piece& piece : pieces_) {
+    piece.compliance.Append(piece.new_columns);
+    piece.new_columns.clear();
+  }
+}
+
+/// Numbers the groups of W, those of pieces first. @returns that of each contact.
+std::vector<std::size_t> ConstraintOperator::FindGroups(const std::vector<Contact>& contacts) {
+  // For now a piece's group is the first piece of it.
+  for (std::size_t p = 0; p < pieces_.size(); ++p) pieces_[p].group = p;
+  const auto merge = [&](std::size_t a, std::size_t b) {
+    for (Piece& piece : pieces_) {
+      if (piece.group == std::max(a, b)) piece.group = std::min(a, b);
+    }
+  };
+  constexpr std::size_t kNowhere = std::numeric_limits<std::size_t>::max();
+  std::vector<std::size_t> groups(contacts.size(), kNowhere);  // for now a piece of each contact
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    for (int k = 0; k < contacts[i].num_nodes; ++k) {
+      const int row = system_->FreeRow(contacts[i].nodes[static_cast<std::size_t>(k)]);
+      if (row < 0) continue;
+      const std::size_t piece = PieceIndex(row);
+      if (groups[i] == kNowhere) groups[i] = piece;
+      merge(pieces_[groups[i]].group, pieces_[piece].group);
+    }
+  }
+  std::size_t num_groups = 0;
+  for (std::size_t p = 0; p < pieces_.size(); ++p) {
+    pieces_[p].group = pieces_[p].group == p ? num_groups++ : pieces_[pieces_[p].group].group;
+  }
+  between_bodies_ = num_groups;
+  for (std::size_t& group : groups) {
+    group = group == kNowhere ? num_groups++ : pieces_[group].group;
+  }
+  W_.groups.resize(num_groups);
+  return groups;
 }
 
 void ConstraintOperator::SetRows(const std::vector<Contact>& contacts) {
+  const std::vector<std::size_t> groups = FindGroups(contacts);
+  for (ContactCompliance::Group& group : W_.groups) group.first = 0;  // for now its rows so far
   rows_.clear();
-  num_rows_ = 0;
-  rows_between_bodies_.clear();
-  for (const Contact& contact : contacts) {
-    rows_.push_back({num_rows_, contact.friction});
-    const Index next = num_rows_ + rows_.back().size();
-    for (; num_rows_ < next; ++num_rows_) {
-      if (contact.num_nodes == 0) rows_between_bodies_.push_back(num_rows_);
-    }
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    Index& next = W_.groups[groups[i]].first;
+    rows_.push_back({next, contacts[i].friction});
+    next += rows_.back().size();
   }
-  if (plain_) return;
+  Index first = 0;
+  for (ContactCompliance::Group& group : W_.groups) {
+    const Index size = std::exchange(group.first, first);
+    group.C.resize(size, size);
+    first += size;
+  }
+  for (std::size_t i = 0; i < contacts.size(); ++i) rows_[i].normal += W_.groups[groups[i]].first;
+}
 
-  std::vector<Eigen::Triplet<double>> entries;
-  J_.setZero(num_rows_, 6 * static_cast<Index>(bodies_.size()));
+void ConstraintOperator::SetH(const std::vector<Contact>& contacts) {
+  J_.setZero(num_rows(), 6 * static_cast<Index>(bodies_.size()));
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     const Contact& contact = contacts[i];
-    const Eigen::Matrix3d axes = Axes(contact);
+    const auto add = [&](Index row, const Column& column, int offset, double value) {
+      Piece& piece = pieces_[static_cast<std::size_t>(column.piece)];
+      piece.entries.emplace_back(static_cast<int>(row - W_.groups[piece.group].first),
+                                 column.index + offset, value);
+    };
     const Index first = rows_[i].normal;
-    const Index num_axes = rows_[i].size();
     if (IsPlain(i)) {
-      entries.emplace_back(static_cast<int>(first), plain_column_[i], 1.0);
+      add(first, plain_columns_[i], 0, 1.0);
       continue;
     }
+    const Eigen::Matrix3d axes = Axes(contact);
     for (int k = 0; k < contact.num_nodes; ++k) {
       const auto place = columns_of_.find(contact.nodes[static_cast<std::size_t>(k)]);
       if (place == columns_of_.end()) continue;  // clamped
       const double weight = contact.weights[static_cast<std::size_t>(k)];
-      for (Index axis = 0; axis < num_axes; ++axis) {
+      for (Index axis = 0; axis < rows_[i].size(); ++axis) {
         for (int xyz = 0; xyz < 3; ++xyz) {
-          entries.emplace_back(static_cast<int>(first + axis), place->second + xyz,
-                               weight * axes(xyz, axis));
+          add(first + axis, place->second, xyz, weight * axes(xyz, axis));
         }
       }
     }
     AddBodyEntries(contact, contact.object, -1.0, rows_[i]);
     AddBodyEntries(contact, contact.other, 1.0, rows_[i]);
   }
-  H_.resize(num_rows_, num_columns_);
-  H_.setFromTriplets(entries.begin(), entries.end());
+  for (Piece& piece : pieces_) {
+    piece.H.resize(W_.groups[piece.group].size(), piece.compliance.num_contacts());
+    piece.H.setFromTriplets(piece.entries.begin(), piece.entries.end());
+    piece.entries.clear();
+  }
 }
 
 void ConstraintOperator::AddBodyEntries(const Contact& contact, int object, double sign,
@@ -141,13 +191,27 @@ void ConstraintOperator::AddBodyEntries(const Contact& contact, int object, doub
 }
 
 void ConstraintOperator::UpdateW() {
-  const Eigen::MatrixXd H_A_inverse = H_ * cup_.W();  // with its h^2
-  W_ = H_A_inverse * H_.transpose();
-  for (std::size_t body = 0; body < bodies_.size(); ++body) {
-    const auto J_b = J_.middleCols<6>(6 * static_cast<Index>(body));
-    W_.noalias() += h_ * h_ * (J_b * bodies_[body].M_inverse).eval() * J_b.transpose();
+  if (plain_) {
+    W_.U.resize(num_rows(), 0);
+    for (const Piece& piece : pieces_) W_.groups[piece.group].C = piece.compliance.W();
+    return;
   }
-  for (const Index row : rows_between_bodies_) W_(row, row) *= 1.0 + kBodyCompliance;
+  W_.U.resize(num_rows(), J_.cols());
+  for (std::size_t body = 0; body < bodies_.size(); ++body) {
+    const auto first = 6 * static_cast<Index>(body);
+    const Eigen::Matrix<double, 6, 6> root = bodies_[body].M_inverse.llt().matrixL();
+    W_.U.middleCols<6>(first) = h_ * J_.middleCols<6>(first) * root;
+  }
+  for (ContactCompliance::Group& group : W_.groups) group.C.setZero();
+  for (const Piece& piece : pieces_) {
+    const Eigen::MatrixXd H_A_inverse = piece.H * piece.compliance.W();  // with its h^2
+    W_.groups[piece.group].C += H_A_inverse * piece.H.transpose();
+  }
+  for (std::size_t g = between_bodies_; g < W_.groups.size(); ++g) {
+    ContactCompliance::Group& group = W_.groups[g];
+    group.C.diagonal() =
+        kBodyCompliance * W_.U.middleRows(group.first, group.size()).rowwise().squaredNorm();
+  }
 }
 
 VectorXd ConstraintOperator::BodyVelocities(const VectorXd& b) const {
@@ -169,26 +233,44 @@ VectorXd ConstraintOperator::BodyImpulses(const VectorXd& dV) const {
 }
 
 VectorXd ConstraintOperator::GapChanges(const SystemVector& y) const {
-  if (plain_) return cup_.GapChanges(y.cup);
-  return H_ * cup_.GapChanges(y.cup) + h_ * J_ * y.bodies;
+  VectorXd changes = VectorXd::Zero(num_rows());
+  for (const Piece& piece : pieces_) {
+    const ContactCompliance::Group& group = W_.groups[piece.group];
+    auto of_group = changes.segment(group.first, group.size());
+    if (plain_) {
+      of_group = piece.compliance.GapChanges(y.cup);
+    } else {
+      of_group += piece.H * piece.compliance.GapChanges(y.cup);
+    }
+  }
+  if (!plain_) changes += h_ * J_ * y.bodies;
+  return changes;
 }
 
 void ConstraintOperator::AddForces(const VectorXd& lambda, SystemVector* y) const {
-  if (plain_) {
-    cup_.AddForces(lambda, &y->cup);
-    return;
+  for (const Piece& piece : pieces_) {
+    const ContactCompliance::Group& group = W_.groups[piece.group];
+    const auto of_group = lambda.segment(group.first, group.size());
+    if (plain_) {
+      piece.compliance.AddForces(of_group, &y->cup);
+    } else {
+      piece.compliance.AddForces(piece.H.transpose() * of_group, &y->cup);
+    }
   }
-  cup_.AddForces(H_.transpose() * lambda, &y->cup);
-  y->bodies += BodyVelocities(h_ * J_.transpose() * lambda);
+  if (!plain_) y->bodies += BodyVelocities(h_ * J_.transpose() * lambda);
 }
 
 void ConstraintOperator::AddImpulses(const VectorXd& lambda, SystemVector* b) const {
-  if (plain_) {
-    cup_.AddImpulses(lambda, &b->cup);
-    return;
+  for (const Piece& piece : pieces_) {
+    const ContactCompliance::Group& group = W_.groups[piece.group];
+    const auto of_group = lambda.segment(group.first, group.size());
+    if (plain_) {
+      piece.compliance.AddImpulses(of_group, &b->cup);
+    } else {
+      piece.compliance.AddImpulses(piece.H.transpose() * of_group, &b->cup);
+    }
   }
-  cup_.AddImpulses(H_.transpose() * lambda, &b->cup);
-  b->bodies += h_ * J_.transpose() * lambda;
+  if (!plain_) b->bodies += h_ * J_.transpose() * lambda;
 }
 
 }  // namespace vacuum_gripper_sim

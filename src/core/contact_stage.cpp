@@ -200,23 +200,19 @@ void ContactStage::SetForces(const VectorXd& lambda) {
 void ContactStage::SolveCandidates(ContactSolution* solution, StepTimings* timings) {
   const Stopwatch stopwatch(&timings->solve);
   VectorXd delta = operator_.GapChanges(y_);
-  bool has_friction = false;
   for (std::size_t i = 0; i < candidates_.size(); ++i) {
     const Contact& contact = candidates_[i].contact;
     const ContactRows& rows = operator_.rows()[i];
     delta(rows.normal) += contact.gap;
     if (!rows.has_tangents()) continue;
-    has_friction = true;
     delta.segment<2>(rows.tangent()) +=
         ConstraintOperator::Axes(contact).rightCols<2>().transpose() * contact.slip_W;
   }
   Stack(&Candidate::force, &lambda_);
   Stack(&Candidate::applied, &applied_);
-  if (!applied_.isZero(0.0)) delta.noalias() -= operator_.W() * applied_;
+  if (!applied_.isZero(0.0)) delta -= operator_.W().Times(applied_);
   const McpStatistics statistics =
-      has_friction
-          ? SolveFrictionalContacts(operator_.W(), delta, operator_.rows(), parameters_, &lambda_)
-          : SolveContacts(operator_.W(), delta, parameters_, &lambda_);
+      SolveContactGroups(operator_.W(), delta, operator_.rows(), parameters_, &lambda_);
   solution->statistics.iterations += statistics.iterations;
   solution->statistics.residual = statistics.residual;
   solution->statistics.converged = statistics.converged;
@@ -344,11 +340,11 @@ void ContactStage::MeasureEnd(const TrialEnd& end, ContactSolution* solution) {
     // Refined forces may pull, and leave their cones.
     const ContactRows& rows = operator_.rows()[i];
     if (!is_loaded) {
-      const double compliance = operator_.W()(rows.normal, rows.normal);
+      const double compliance = operator_.W().Diagonal(rows.normal);
       solution->error = std::max(solution->error, -candidate.force.x() * compliance);
     } else if (rows.has_tangents()) {
       const double excess = candidate.force.tail<2>().norm() - rows.friction * candidate.force.x();
-      const double compliance = operator_.W()(rows.tangent(), rows.tangent());
+      const double compliance = operator_.W().Diagonal(rows.tangent());
       solution->error = std::max(solution->error, excess * compliance);
     }
   }

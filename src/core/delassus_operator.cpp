@@ -43,14 +43,16 @@ Eigen::VectorXd DelassusOperator::GapChanges(const Eigen::VectorXd& y) const {
   return changes;
 }
 
-void DelassusOperator::AddImpulses(const Eigen::VectorXd& lambda, Eigen::VectorXd* b) const {
+void DelassusOperator::AddImpulses(const Eigen::Ref<const Eigen::VectorXd>& lambda,
+                                   Eigen::VectorXd* b) const {
   for (Index i = 0; i < num_contacts(); ++i) {
     const NodeColumn& row = H_rows_[static_cast<std::size_t>(i)];
     b->segment<3>(3 * row.node) += h_ * lambda(i) * row.value;
   }
 }
 
-void DelassusOperator::AddForces(const Eigen::VectorXd& lambda, Eigen::VectorXd* y) const {
+void DelassusOperator::AddForces(const Eigen::Ref<const Eigen::VectorXd>& lambda,
+                                 Eigen::VectorXd* y) const {
   Index row = 0;
   for (const EliminatedColumns& Y : batches_) {
     Y.AddTimes(h_ * lambda.segment(row, Y.num_columns()), y);

@@ -37,15 +37,22 @@ std::size_t EliminatedColumns::LargestBlock() const {
   return static_cast<std::size_t>(largest);
 }
 
+Index EliminatedColumns::MostRows() const {
+  Index most = 0;
+  for (const Block& block : blocks_) most = std::max(most, block.num_rows);
+  return most;
+}
+
 Eigen::VectorXd EliminatedColumns::TransposeTimes(const Eigen::VectorXd& y) const {
   return std::visit(
       [&](const auto& values) -> Eigen::VectorXd {
         using Vector = Eigen::Matrix<ScalarOf<decltype(values)>, Eigen::Dynamic, 1>;
-        Vector rounded = y.template cast<typename Vector::Scalar>();
         Vector sorted = Vector::Zero(num_columns());
+        Vector work(MostRows());
         for (const Block& block : blocks_) {
-          sorted.segment(block.column, block.num_columns).noalias() +=
-              Values(values, block) * rounded.segment(block.row, block.num_rows);
+          auto rows = work.head(block.num_rows);
+          rows = y.segment(block.row, block.num_rows).template cast<typename Vector::Scalar>();
+          sorted.segment(block.column, block.num_columns).noalias() += Values(values, block) * rows;
         }
         Eigen::VectorXd result(num_columns());
         for (Index k = 0; k < result.size(); ++k) {
@@ -64,9 +71,9 @@ void EliminatedColumns::AddTimes(const Eigen::VectorXd& x, Eigen::VectorXd* y) c
         for (Index k = 0; k < sorted.size(); ++k) {
           sorted(k) = static_cast<typename Vector::Scalar>(x(order_[static_cast<std::size_t>(k)]));
         }
-        Vector product(y->size());
+        Vector work(MostRows());
         for (const Block& block : blocks_) {
-          auto rows = product.head(block.num_rows);
+          auto rows = work.head(block.num_rows);
           rows.noalias() =
               Values(values, block).transpose() * sorted.segment(block.column, block.num_columns);
           y->segment(block.row, block.num_rows) += rows.template cast<double>();

@@ -1,18 +1,17 @@
 #include "vacuum_gripper_sim/core/friction_solver.h"
 
-#include <Eigen/Cholesky>
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
+
+#include "vacuum_gripper_sim/core/linearized_contacts.h"
 
 namespace vacuum_gripper_sim {
 namespace {
 
 using Eigen::Index;
 using Eigen::Matrix2d;
-using Eigen::MatrixXd;
 using Eigen::Vector2d;
 using Eigen::VectorXd;
 
@@ -32,156 +31,113 @@ Vector2d ProjectOntoDisc(const Vector2d& z, double radius) {
 
 class FrictionProblem {
  public:
-  FrictionProblem(const Eigen::MatrixXd& W, const VectorXd& delta,
-                  const std::vector<ContactRows>& rows)
-      : W_(&W), delta_(&delta), rows_(&rows) {}
+  FrictionProblem(const ContactCompliance& W, const VectorXd& delta,
+                  const std::vector<ContactRows>& rows);
 
   /// Gaps and slips under the forces. [m]
-  VectorXd End(const VectorXd& lambda) const { return *delta_ + *W_ * lambda; }
+  VectorXd End(const VectorXd& lambda) const { return *delta_ + W_->Times(lambda); }
   double Residual(const VectorXd& lambda, const VectorXd& end) const;
   void Sweep(double relaxation, VectorXd* lambda, VectorXd* end) const;
   VectorXd NewtonTarget(const VectorXd& lambda, const VectorXd& end) const;
 
  private:
-  bool Slides(const ContactRows& contact, const VectorXd& lambda, const VectorXd& end) const;
-  double NormalScale(const ContactRows& contact) const {
-    return (*W_)(contact.normal, contact.normal);
-  }
-  double TangentScale(const ContactRows& contact) const {
-    const Index t = contact.tangent();
-    return 0.5 * ((*W_)(t, t) + (*W_)(t + 1, t + 1));
-  }
+  struct ScaledContact {
+    ContactRows rows;
+    const ContactCompliance::Group* group{nullptr};
+    double normal_scale{0.0};   // W_nn [m/N]
+    double tangent_scale{0.0};  // mean W_tt [m/N]
+  };
 
-  const Eigen::MatrixXd* W_;
+  const ContactCompliance* W_;
   const VectorXd* delta_;
-  const std::vector<ContactRows>* rows_;
+  std::vector<ScaledContact> contacts_;
 };
+
+FrictionProblem::FrictionProblem(const ContactCompliance& W, const VectorXd& delta,
+                                 const std::vector<ContactRows>& rows)
+    : W_(&W), delta_(&delta) {
+  contacts_.reserve(rows.size());
+  for (const ContactRows& contact : rows) {
+    contacts_.push_back({contact, &W.GroupOf(contact.normal), W.Diagonal(contact.normal), 0.0});
+    if (!contact.has_tangents()) continue;
+    const Index t = contact.tangent();
+    contacts_.back().tangent_scale = 0.5 * (W.Diagonal(t) + W.Diagonal(t + 1));
+  }
+}
 
 double FrictionProblem::Residual(const VectorXd& lambda, const VectorXd& end) const {
   // A largest value would pass over what is no number.
   if (!lambda.allFinite() || !end.allFinite()) return std::numeric_limits<double>::infinity();
   double residual = 0.0;
-  for (const ContactRows& contact : *rows_) {
-    const Index n = contact.normal;
-    residual = std::max(residual, std::abs(std::min(end(n), NormalScale(contact) * lambda(n))));
-    if (!contact.has_tangents()) continue;
-    const double scale = TangentScale(contact);
-    const Vector2d force = lambda.segment<2>(contact.tangent());
-    const Vector2d projected = ProjectOntoDisc(force - end.segment<2>(contact.tangent()) / scale,
-                                               contact.friction * std::max(0.0, lambda(n)));
+  for (const ScaledContact& contact : contacts_) {
+    const Index n = contact.rows.normal;
+    residual = std::max(residual, std::abs(std::min(end(n), contact.normal_scale * lambda(n))));
+    if (!contact.rows.has_tangents()) continue;
+    const Index t = contact.rows.tangent();
+    const double scale = contact.tangent_scale;
+    const Vector2d force = lambda.segment<2>(t);
+    const Vector2d projected = ProjectOntoDisc(force - end.segment<2>(t) / scale,
+                                               contact.rows.friction * std::max(0.0, lambda(n)));
     residual = std::max(residual, scale * (force - projected).norm());
   }
   return residual;
 }
 
-bool FrictionProblem::Slides(const ContactRows& contact, const VectorXd& lambda,
-                             const VectorXd& end) const {
-  const Vector2d z = lambda.segment<2>(contact.tangent()) -
-                     end.segment<2>(contact.tangent()) / TangentScale(contact);
-  return z.norm() > contact.friction * std::max(0.0, lambda(contact.normal));
-}
-
-/// One sweep of projected Gauss-Seidel.
+/// One sweep of projected Gauss-Seidel. What the forces do through the bodies is added up on the
+/// way, and to all rows at the end.
 void FrictionProblem::Sweep(double relaxation, VectorXd* lambda, VectorXd* end) const {
-  for (const ContactRows& contact : *rows_) {
-    const Index n = contact.normal;
+  VectorXd moved = VectorXd::Zero(W_->U.cols());  // U^T (changes of lambda)
+  for (const ScaledContact& contact : contacts_) {
+    const Index first = contact.group->first;
+    auto end_of_group = end->segment(first, contact.group->size());
+    const Index n = contact.rows.normal;
     const double before = (*lambda)(n);
-    (*lambda)(n) = std::max(0.0, before - relaxation * (*end)(n) / NormalScale(contact));
-    if ((*lambda)(n) != before) end->noalias() += ((*lambda)(n)-before) * W_->col(n);
-    if (!contact.has_tangents()) continue;
-    const Index t = contact.tangent();
+    const double gap = (*end)(n) + W_->U.row(n).dot(moved);
+    (*lambda)(n) = std::max(0.0, before - relaxation * gap / contact.normal_scale);
+    if (const double change = (*lambda)(n)-before; change != 0.0) {
+      end_of_group.noalias() += change * contact.group->C.col(n - first);
+      moved.noalias() += change * W_->U.row(n).transpose();
+    }
+    if (!contact.rows.has_tangents()) continue;
+    const Index t = contact.rows.tangent();
     const Vector2d force = lambda->segment<2>(t);
-    lambda->segment<2>(t) =
-        ProjectOntoDisc(force - relaxation * end->segment<2>(t) / TangentScale(contact),
-                        contact.friction * (*lambda)(n));
+    const Vector2d slip = end->segment<2>(t) + W_->U.middleRows<2>(t) * moved;
+    lambda->segment<2>(t) = ProjectOntoDisc(force - relaxation * slip / contact.tangent_scale,
+                                            contact.rows.friction * (*lambda)(n));
     const Vector2d change = lambda->segment<2>(t) - force;
-    if (!change.isZero(0.0)) end->noalias() += W_->middleCols<2>(t) * change;
+    if (change.isZero(0.0)) continue;
+    end_of_group.noalias() += contact.group->C.middleCols<2>(t - first) * change;
+    moved.noalias() += W_->U.middleRows<2>(t).transpose() * change;
   }
+  if (W_->coupled()) end->noalias() += W_->U * moved;
 }
 
-/** The forces to which a full Newton step leads: zero where contacts open, and of the closed ones
- those of the linearised projections. Rows that keep their gap or slip at zero (E) are W's own and
- symmetric; those of sliding tangents (S) are eliminated after them. */
+/// The forces to which a full Newton step leads: zero where contacts open, and of the closed ones
+/// those of the linearised projections.
 VectorXd FrictionProblem::NewtonTarget(const VectorXd& lambda, const VectorXd& end) const {
-  std::vector<Index> held;                  // rows of W in E
-  std::vector<const ContactRows*> sliding;  // their tangents are S
-  for (const ContactRows& contact : *rows_) {
-    if (NormalScale(contact) * lambda(contact.normal) - end(contact.normal) <= 0.0) continue;
-    held.push_back(contact.normal);
-    if (!contact.has_tangents()) continue;
-    if (Slides(contact, lambda, end)) {
-      sliding.push_back(&contact);
-    } else {
-      held.push_back(contact.tangent());
-      held.push_back(contact.tangent() + 1);
+  std::vector<Index> held;
+  std::vector<SlidingContact> sliding;
+  for (const ScaledContact& contact : contacts_) {
+    const Index n = contact.rows.normal;
+    if (contact.normal_scale * lambda(n) - end(n) <= 0.0) continue;
+    held.push_back(n);
+    if (!contact.rows.has_tangents()) continue;
+    const Index t = contact.rows.tangent();
+    const double friction = contact.rows.friction;
+    const Vector2d z = lambda.segment<2>(t) - end.segment<2>(t) / contact.tangent_scale;
+    const double radius = friction * std::max(0.0, lambda(n));
+    const double size_of_z = z.norm();
+    if (size_of_z <= radius) {
+      held.push_back(t);
+      held.push_back(t + 1);
+      continue;
     }
+    const Vector2d d = z / size_of_z;
+    const Matrix2d theta_P = (radius / size_of_z) * (Matrix2d::Identity() - d * d.transpose());
+    sliding.push_back({n, t, friction, contact.tangent_scale, d, theta_P});
   }
-  VectorXd target = VectorXd::Zero(lambda.size());
-  const auto num_held = static_cast<Index>(held.size());
-  const auto num_sliding = 2 * static_cast<Index>(sliding.size());
-  if (num_held == 0) return target;
-
-  // W_EE (forces of E) = right_E - W_ES (forces of S)
-  MatrixXd W_EE(num_held, num_held);
-  MatrixXd right(num_held, num_sliding + 1);
-  for (Index i = 0; i < num_held; ++i) {
-    const Index row = held[static_cast<std::size_t>(i)];
-    for (Index j = 0; j <= i; ++j) {
-      W_EE(i, j) = (*W_)(row, held[static_cast<std::size_t>(j)]);
-    }
-    for (Index s = 0; s < num_sliding; s += 2) {
-      right.block<1, 2>(i, s) =
-          W_->block<1, 2>(row, sliding[static_cast<std::size_t>(s / 2)]->tangent());
-    }
-    right(i, num_sliding) = -(*delta_)(row);
-  }
-  const Eigen::LLT<MatrixXd> factor = FactorOfContacts(W_EE);
-  if (factor.info() != Eigen::Success) return lambda;
-  factor.solveInPlace(right);
-  VectorXd forces_E = right.col(num_sliding);
-
-  if (num_sliding > 0) {
-    MatrixXd B_SE(num_sliding, num_held);
-    MatrixXd B_SS(num_sliding, num_sliding);
-    VectorXd right_S(num_sliding);
-    for (Index s = 0; s < num_sliding; s += 2) {
-      const ContactRows& contact = *sliding[static_cast<std::size_t>(s / 2)];
-      const Index t = contact.tangent();
-      const double scale = TangentScale(contact);
-      const Vector2d force = lambda.segment<2>(t);
-      const Vector2d z = force - end.segment<2>(t) / scale;
-      const double size_of_z = z.norm();
-      const double radius = contact.friction * std::max(0.0, lambda(contact.normal));
-      // lambda_t - mu lambda_n d - theta P (lambda_t - W_t lambda / W_tt), where d, P = 1 - d d^T
-      // and theta are those of z, keeps its last term; times W_tt, as W's rows.
-      const Vector2d d = z / size_of_z;
-      const Matrix2d theta_P = (radius / size_of_z) * (Matrix2d::Identity() - d * d.transpose());
-      for (Index j = 0; j < num_held; ++j) {
-        const Index column = held[static_cast<std::size_t>(j)];
-        B_SE.block<2, 1>(s, j) = theta_P * W_->block<2, 1>(t, column);
-        if (column == contact.normal) B_SE.block<2, 1>(s, j) -= scale * contact.friction * d;
-      }
-      for (Index j = 0; j < num_sliding; j += 2) {
-        const Index column = sliding[static_cast<std::size_t>(j / 2)]->tangent();
-        B_SS.block<2, 2>(s, j) = theta_P * W_->block<2, 2>(t, column);
-      }
-      B_SS.block<2, 2>(s, s) += scale * (Matrix2d::Identity() - theta_P);
-      right_S.segment<2>(s) =
-          -theta_P * (scale * force - (end.segment<2>(t) - delta_->segment<2>(t)));
-    }
-    B_SS.noalias() -= B_SE * right.leftCols(num_sliding);
-    right_S.noalias() -= B_SE * forces_E;
-    const VectorXd forces_S = B_SS.partialPivLu().solve(right_S);
-    forces_E.noalias() -= right.leftCols(num_sliding) * forces_S;
-    for (Index s = 0; s < num_sliding; s += 2) {
-      target.segment<2>(sliding[static_cast<std::size_t>(s / 2)]->tangent()) =
-          forces_S.segment<2>(s);
-    }
-  }
-  for (Index i = 0; i < num_held; ++i) {
-    target(held[static_cast<std::size_t>(i)]) = forces_E(i);
-  }
-  return target;
+  const LinearizedContacts contacts(*W_, held, sliding);
+  return contacts.usable() ? contacts.Forces(*delta_) : lambda;
 }
 
 McpStatistics GaussSeidel(const FrictionProblem& problem, const ContactParameters& parameters,
@@ -245,24 +201,62 @@ McpStatistics Newton(const FrictionProblem& problem, const ContactParameters& pa
   return statistics;
 }
 
-}  // namespace
-
-McpStatistics SolveFrictionalContacts(const Eigen::MatrixXd& W, const Eigen::VectorXd& delta,
-                                      const std::vector<ContactRows>& rows,
-                                      const ContactParameters& parameters,
-                                      Eigen::VectorXd* lambda) {
-  const Index size = delta.size();
-  Index covered = 0;
-  for (const ContactRows& contact : rows) covered += contact.size();
-  if (W.rows() != size || W.cols() != size || lambda->size() != size || covered != size) {
-    throw std::invalid_argument(
-        "SolveFrictionalContacts: W, delta, lambda and the contacts' rows must agree in size");
-  }
+/// Contacts whose groups move each other, or of a single group.
+McpStatistics SolveTogether(const ContactCompliance& W, const VectorXd& delta,
+                            const std::vector<ContactRows>& rows,
+                            const ContactParameters& parameters, VectorXd* lambda) {
   const FrictionProblem problem(W, delta, rows);
   McpStatistics statistics = parameters.method == ContactSolverMethod::kActiveSet
                                  ? Newton(problem, parameters, lambda)
                                  : GaussSeidel(problem, parameters, lambda);
   statistics.converged = statistics.residual <= parameters.tolerance;
+  return statistics;
+}
+
+/// Contacts of a group that feels no other.
+McpStatistics SolveAlone(const ContactCompliance::Group& group, const VectorXd& delta,
+                         const std::vector<ContactRows>& rows, const ContactParameters& parameters,
+                         VectorXd* lambda) {
+  const auto is_within = [&](const ContactRows& contact) {
+    return contact.normal >= group.first && contact.normal < group.first + group.size();
+  };
+  const bool has_friction = std::any_of(rows.begin(), rows.end(), [&](const ContactRows& contact) {
+    return contact.has_tangents() && is_within(contact);
+  });
+  if (!has_friction) return SolveContacts(group.C, delta, parameters, lambda);
+  std::vector<ContactRows> rows_within;  // counted from the group's first
+  for (const ContactRows& contact : rows) {
+    if (!is_within(contact)) continue;
+    rows_within.push_back({contact.normal - group.first, contact.friction});
+  }
+  const ContactCompliance C{{{0, group.C}}, ContactCompliance::RowMajorMatrix(group.size(), 0)};
+  return SolveTogether(C, delta, rows_within, parameters, lambda);
+}
+
+}  // namespace
+
+McpStatistics SolveContactGroups(const ContactCompliance& W, const VectorXd& delta,
+                                 const std::vector<ContactRows>& rows,
+                                 const ContactParameters& parameters, VectorXd* lambda) {
+  const Index size = delta.size();
+  Index covered = 0;
+  for (const ContactRows& contact : rows) covered += contact.size();
+  if (W.num_rows() != size || lambda->size() != size || covered != size) {
+    throw std::invalid_argument(
+        "SolveContactGroups: W, delta, lambda and the contacts' rows must agree in size");
+  }
+  if (W.coupled()) return SolveTogether(W, delta, rows, parameters, lambda);
+  if (W.groups.size() == 1) return SolveAlone(W.groups[0], delta, rows, parameters, lambda);
+  McpStatistics statistics;
+  for (const ContactCompliance::Group& group : W.groups) {
+    VectorXd forces = lambda->segment(group.first, group.size());
+    const McpStatistics of_group =
+        SolveAlone(group, delta.segment(group.first, group.size()), rows, parameters, &forces);
+    lambda->segment(group.first, group.size()) = forces;
+    statistics.converged = statistics.converged && of_group.converged;
+    statistics.iterations = std::max(statistics.iterations, of_group.iterations);
+    statistics.residual = std::max(statistics.residual, of_group.residual);
+  }
   return statistics;
 }
 

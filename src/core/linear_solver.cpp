@@ -1,12 +1,11 @@
 #include "vacuum_gripper_sim/core/linear_solver.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <utility>
 
-#include "vacuum_gripper_sim/core/mcp_solver.h"
+#include "vacuum_gripper_sim/core/linearized_contacts.h"
 
 namespace vacuum_gripper_sim {
 namespace {
@@ -22,35 +21,19 @@ class HeldPreconditioner {
  public:
   HeldPreconditioner(const SparseCholesky& factorization, const ConstraintOperator& constraints,
                      const std::vector<Index>& held)
-      : factorization_(&factorization), constraints_(&constraints), held_(&held) {
-    const auto size = static_cast<Index>(held.size());
-    if (size == 0) return;
-    const Eigen::MatrixXd& W = constraints.W();
-    Eigen::MatrixXd W_held(size, size);
-    for (Index j = 0; j < size; ++j) {
-      const Index column = held[static_cast<std::size_t>(j)];
-      for (Index i = j; i < size; ++i) W_held(i, j) = W(held[static_cast<std::size_t>(i)], column);
-    }
-    W_held_ = FactorOfContacts(W_held);
-  }
+      : factorization_(&factorization),
+        constraints_(&constraints),
+        any_held_(!held.empty()),
+        held_(constraints.W(), held, {}) {}
 
-  bool usable() const { return held_->empty() || W_held_.info() == Eigen::Success; }
+  bool usable() const { return held_.usable(); }
 
   /// @param[in,out] r Loses the part that held contacts take. @param[in,out] lambda Gains mu.
   /// @returns z, which moves no held row.
   SystemVector Solve(SystemVector* r, VectorXd* lambda) const {
     SystemVector y{factorization_->Eliminate(r->cup), constraints_->BodyVelocities(r->bodies)};
-    if (!held_->empty()) {
-      const VectorXd gaps = constraints_->GapChanges(y);
-      VectorXd forces(static_cast<Index>(held_->size()));
-      for (Index i = 0; i < forces.size(); ++i) {
-        forces(i) = -gaps((*held_)[static_cast<std::size_t>(i)]);
-      }
-      W_held_.solveInPlace(forces);
-      VectorXd mu = VectorXd::Zero(lambda->size());
-      for (Index i = 0; i < forces.size(); ++i) {
-        mu((*held_)[static_cast<std::size_t>(i)]) = forces(i);
-      }
+    if (any_held_) {
+      const VectorXd mu = held_.Forces(constraints_->GapChanges(y));
       constraints_->AddForces(mu, &y);
       constraints_->AddImpulses(mu, r);
       *lambda += mu;
@@ -61,8 +44,8 @@ class HeldPreconditioner {
  private:
   const SparseCholesky* factorization_;
   const ConstraintOperator* constraints_;
-  const std::vector<Index>* held_;
-  Eigen::LLT<Eigen::MatrixXd> W_held_;
+  bool any_held_;
+  LinearizedContacts held_;
 };
 
 }  // namespace

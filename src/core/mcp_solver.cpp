@@ -115,11 +115,11 @@ McpStatistics ActiveSet(const Eigen::MatrixXd& W, const Eigen::VectorXd& delta,
 
 }  // namespace
 
-Eigen::LLT<Eigen::MatrixXd> FactorOfContacts(const Eigen::MatrixXd& W_lower) {
+Eigen::LLT<Eigen::MatrixXd> FactorOfContacts(const Eigen::MatrixXd& W_lower, double* share) {
   Eigen::LLT<Eigen::MatrixXd> factor;
-  for (double share = kContactRegularization; share < 1e-5; share *= 1e3) {
+  for (*share = kContactRegularization; *share < 1e-5; *share *= 1e3) {
     Eigen::MatrixXd W = W_lower;
-    W.diagonal() *= 1.0 + share;
+    W.diagonal() *= 1.0 + *share;
     factor.compute(W);
     if (factor.info() == Eigen::Success) break;
   }

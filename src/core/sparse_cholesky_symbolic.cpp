@@ -114,6 +114,7 @@ void SparseCholesky::Analyze(const Eigen::SparseMatrix<double>& A) {
   size_ = A.cols();
   const std::vector<std::vector<int>> graph = NodeGraph(A);
   Order(graph);
+  FindPieces();
   FindSupernodes(graph);
   MergeSmallSupernodes();
   LinkSupernodes();
@@ -131,6 +132,16 @@ void SparseCholesky::Order(const std::vector<std::vector<int>>& graph) {
   }
   position_ = Inverse(node_at_);
   tree_ = EliminationTree(graph, node_at_, position_);
+}
+
+/// Each tree of the elimination forest is a piece.
+void SparseCholesky::FindPieces() {
+  num_pieces_ = 0;
+  piece_of_.resize(tree_.size());
+  for (std::size_t k = tree_.size(); k-- > 0;) {
+    piece_of_[static_cast<std::size_t>(node_at_[k])] =
+        tree_[k] < 0 ? num_pieces_++ : PieceOf(node_at_[static_cast<std::size_t>(tree_[k])]);
+  }
 }
 
 void SparseCholesky::FindSupernodes(const std::vector<std::vector<int>>& graph) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "support/block_mesh.h"
+#include "vacuum_gripper_sim/core/cup_array.h"
 
 namespace vacuum_gripper_sim {
 namespace {
@@ -21,7 +22,7 @@ constexpr int kGround = 0;
 constexpr int kBox = 1;
 constexpr int kBall = 2;
 
-/// An elastic block beside a fixed plane and two free bodies.
+/// Two elastic blocks in one mesh, a fixed plane and two free bodies.
 class ConstraintOperatorTest : public testing::Test {
  protected:
   ConstraintOperatorTest() {
@@ -129,9 +130,35 @@ class ConstraintOperatorTest : public testing::Test {
     EXPECT_LT((a - b).cwiseAbs().maxCoeff(), relative * b.cwiseAbs().maxCoeff());
   }
 
-  const TetMesh mesh_ = MakeBlock(4, 3, 2, {0.02, 0.01, 0.01}, false);
+  /// W, a column at a time.
+  MatrixXd W() const {
+    MatrixXd W(operator_.num_rows(), operator_.num_rows());
+    for (Eigen::Index i = 0; i < W.cols(); ++i) {
+      W.col(i) = operator_.W().Times(VectorXd::Unit(W.cols(), i));
+      EXPECT_NEAR(operator_.W().Diagonal(i), W(i, i), 1e-12 * W(i, i));
+    }
+    return W;
+  }
+  /// Its rows contact by contact.
+  MatrixXd WByContact() const {
+    std::vector<Eigen::Index> order;
+    for (const ContactRows& contact : operator_.rows()) {
+      for (Eigen::Index axis = 0; axis < contact.size(); ++axis) {
+        order.push_back(contact.normal + axis);
+      }
+    }
+    const MatrixXd own = W();
+    return MatrixXd::NullaryExpr(own.rows(), own.cols(), [&](Eigen::Index i, Eigen::Index j) {
+      return own(order[static_cast<std::size_t>(i)], order[static_cast<std::size_t>(j)]);
+    });
+  }
+
+  const TetMesh mesh_ = RepeatMesh(
+      MakeBlock(4, 3, 2, {0.02, 0.01, 0.01}, false),
+      {Eigen::Isometry3d::Identity(), Eigen::Isometry3d(Eigen::Translation3d(0.0, 0.05, 0.0))});
   const ElasticBody body_{mesh_, {338000.0, 0.45, 1080.0}};
   ImplicitEuler system_{body_, mesh_.mount_nodes};
+  const int free_nodes_of_one_ = static_cast<int>(system_.free_nodes().size()) / 2;
   SparseCholesky factorization_;
   RigidWorld world_;
   ConstraintOperator operator_{system_};
@@ -147,7 +174,7 @@ TEST_F(ConstraintOperatorTest, EveryKindAloneIsTheDenseW) {
     operator_.Reset(factorization_, world_, kTimeStep);
     operator_.SetContacts({kinds[i]});
     EXPECT_EQ(operator_.plain(), i == 0);
-    ExpectNear(operator_.W(), DenseW({kinds[i]}), kClose);
+    ExpectNear(WByContact(), DenseW({kinds[i]}), kClose);
   }
 }
 
@@ -157,7 +184,7 @@ TEST_F(ConstraintOperatorTest, AllTogetherAreTheDenseW) {
   EXPECT_TRUE(operator_.IsPlain(0));
   EXPECT_FALSE(operator_.IsPlain(1));
   EXPECT_EQ(operator_.num_rows(), 16);
-  ExpectNear(operator_.W(), DenseW(EveryKind()), kClose);
+  ExpectNear(WByContact(), DenseW(EveryKind()), kClose);
 }
 
 // One more contact every time, and directions that turn: only where columns are bound to the
@@ -171,8 +198,52 @@ TEST_F(ConstraintOperatorTest, AppendedAndTurnedContactsAreTheDenseW) {
       contacts[i].normal = (contacts[i].normal + Vector3d(0.1, -0.05, 0.02)).normalized();
     }
     operator_.SetContacts(contacts);
-    ExpectNear(operator_.W(), DenseW(contacts), kClose);
+    ExpectNear(WByContact(), DenseW(contacts), kClose);
   }
+}
+
+// The same on both blocks, in turns; then the blocks touch.
+TEST_F(ConstraintOperatorTest, PiecesMeetInTheBodiesAlone) {
+  std::vector<Contact> contacts;
+  for (Contact contact : EveryKind()) {
+    contacts.push_back(contact);
+    if (contact.num_nodes == 0) continue;
+    for (int k = 0; k < contact.num_nodes; ++k) {
+      const std::size_t place = static_cast<std::size_t>(k);
+      const int free = system_.FreeRow(contact.nodes[place]) / 3 + free_nodes_of_one_;
+      contact.nodes[place] = system_.free_nodes()[static_cast<std::size_t>(free)];
+    }
+    contacts.push_back(contact);
+  }
+  operator_.SetContacts(contacts);
+  EXPECT_EQ(operator_.num_rows(), 28);
+  ExpectNear(WByContact(), DenseW(contacts), kClose);
+  // Of both blocks, and of each contact between bodies.
+  ASSERT_EQ(operator_.W().groups.size(), 4U);
+  EXPECT_EQ(operator_.W().groups[0].size(), 12);
+  EXPECT_EQ(operator_.W().groups[1].size(), 12);
+  EXPECT_EQ(operator_.W().groups[2].size(), 3);
+  EXPECT_EQ(operator_.W().groups[3].size(), 1);
+
+  contacts.push_back(On({2, 4, 6, 3 + free_nodes_of_one_}, -1, {0.1, 0.5, 1.0}, 0.0));
+  operator_.SetContacts(contacts);
+  ExpectNear(WByContact(), DenseW(contacts), kClose);
+  ASSERT_EQ(operator_.W().groups.size(), 3U);
+  EXPECT_EQ(operator_.W().groups[0].size(), 25);
+}
+
+TEST_F(ConstraintOperatorTest, PlainContactsOfPiecesStandPieceByPiece) {
+  std::vector<Contact> contacts;
+  for (const int node : {1, 5, 9, 13}) {
+    contacts.push_back(On({node}, kGround, {0.1, 0.0, 1.0}, 0.0));
+    contacts.push_back(On({node + free_nodes_of_one_}, kGround, {0.0, 0.2, 1.0}, 0.0));
+    operator_.SetContacts(contacts);  // two more every time
+  }
+  EXPECT_TRUE(operator_.plain());
+  EXPECT_FALSE(operator_.W().coupled());
+  ASSERT_EQ(operator_.W().groups.size(), 2U);
+  EXPECT_EQ(operator_.W().groups[0].size(), 4);
+  ExpectNear(WByContact(), DenseW(contacts), 1e-12);
 }
 
 TEST_F(ConstraintOperatorTest, ForcesDoToGapsWhatWSays) {
@@ -196,7 +267,7 @@ TEST_F(ConstraintOperatorTest, ForcesDoToGapsWhatWSays) {
     SystemVector y = none;
     operator_.AddForces(lambda, &y);
     ExpectNear(y.cup, factorization_.Eliminate(b.cup), 1e-10);
-    ExpectNear(operator_.GapChanges(y), operator_.W() * lambda, kClose);
+    ExpectNear(operator_.GapChanges(y), W() * lambda, kClose);
     stacked << factorization_.BackSubstitute(y.cup), y.bodies;
     ExpectNear(operator_.GapChanges(y), kTimeStep * J * stacked, 1e-10);
     if (plain) continue;
@@ -220,7 +291,7 @@ TEST_F(ConstraintOperatorTest, NoContactsAreNoRows) {
   operator_.SetContacts({});
   EXPECT_TRUE(operator_.plain());
   EXPECT_EQ(operator_.num_rows(), 0);
-  EXPECT_EQ(operator_.W().size(), 0);
+  EXPECT_EQ(operator_.W().num_rows(), 0);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 
 #include <Eigen/Cholesky>
 #include <random>
+#include <set>
 
 #include "support/block_mesh.h"
 #include "vacuum_gripper_sim/core/elastic_body.h"
@@ -91,6 +92,11 @@ TEST(SparseCholesky, HandlesAForest) {
   ASSERT_TRUE(cholesky.Factorize(A));
   const Eigen::VectorXd b = Eigen::VectorXd::Ones(12);
   EXPECT_LT((Dense(A) * cholesky.Solve(b) - b).norm(), 1e-14);
+  // Nodes 0 and 1 are one piece, 2 and 3 one each.
+  EXPECT_EQ(cholesky.num_pieces(), 3);
+  EXPECT_EQ(cholesky.PieceOf(0), cholesky.PieceOf(1));
+  EXPECT_EQ((std::set<int>{cholesky.PieceOf(1), cholesky.PieceOf(2), cholesky.PieceOf(3)}),
+            (std::set<int>{0, 1, 2}));
 }
 
 Eigen::MatrixXd Dense(const std::vector<NodeColumn>& columns, Eigen::Index num_rows) {

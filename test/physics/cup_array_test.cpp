@@ -4,6 +4,7 @@
 #include <string>
 
 #include "grip_cycle.h"
+#include "grip_world.h"
 #include "vacuum_gripper_sim/core/simulator.h"
 
 namespace vacuum_gripper_sim {
@@ -87,6 +88,33 @@ TEST(CupArray, ACupBesideTheObjectStaysOpenAndTheOtherHolds) {
   EXPECT_EQ(result.cups[0].status, SealStatus::kLost);
   EXPECT_EQ(result.cups[1].status, SealStatus::kOpen);
   EXPECT_EQ(result.status, SealStatus::kLost);
+}
+
+/// A free box, with friction, that four cups press on a table, take hold of and begin to lift.
+ObjectResult BoxHeldByFour(ContactSolverMethod method) {
+  SimulatorParameters parameters = WithGravity(
+      WithCups({{0.03, 0.02, 0.0}, {-0.03, 0.02, 0.0}, {0.03, -0.02, 0.0}, {-0.03, -0.02, 0.0}}));
+  parameters.contact.method = method;
+  if (method == ContactSolverMethod::kGaussSeidel) parameters.contact.max_iterations = 200000;
+  GripWorld world({Table(0.5), FreeBox({0.12, 0.1, 0.02}, 0.2, 0.5, {0.004, 0.002, 0.01})},
+                  {0.0, 0.0, 0.02 + kCupLength + 1e-4}, parameters);
+  world.MoveTo({0.0, 0.0, 0.02 + kCupLength - 3e-4}, 0.02, 0.0);
+  world.Wait(0.02, kSetpoint);
+  world.MoveTo({0.0, 0.0, 0.02 + kCupLength}, 0.02, kSetpoint);
+  EXPECT_EQ(world.undone_steps, 0);
+  EXPECT_TRUE(Holds(world.result()));
+  EXPECT_EQ(world.result().cups.size(), 4U);
+  return world.object(1);
+}
+
+// Newton's method, cup by cup, and Gauss-Seidel, contact by contact.
+TEST(CupArray, BoxHeldByFourMovesTheSameWhateverTheSolver) {
+  const ObjectResult newton = BoxHeldByFour(ContactSolverMethod::kActiveSet);
+  const ObjectResult sweeps = BoxHeldByFour(ContactSolverMethod::kGaussSeidel);
+  EXPECT_GT(newton.X_WO.translation().z(), 0.0105);  // off the table
+  EXPECT_LT((newton.X_WO.translation() - sweeps.X_WO.translation()).norm(), 1e-7);
+  EXPECT_TRUE(newton.X_WO.linear().isApprox(sweeps.X_WO.linear(), 1e-6));
+  EXPECT_LT((newton.force_W - sweeps.force_W).norm(), 1e-3 * newton.force_W.norm());
 }
 
 TEST(CupArray, RefusesCupsWithoutNamesOrPoses) {

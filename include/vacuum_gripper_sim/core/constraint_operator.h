@@ -6,6 +6,7 @@
 #include <map>
 #include <vector>
 
+#include "vacuum_gripper_sim/core/contact_compliance.h"
 #include "vacuum_gripper_sim/core/contact_finder.h"
 #include "vacuum_gripper_sim/core/delassus_operator.h"
 #include "vacuum_gripper_sim/core/friction_solver.h"
@@ -16,12 +17,16 @@
 
 namespace vacuum_gripper_sim {
 
-/** Rows of H for contacts of cup and free bodies, and W over both:
+/** Rows of H for contacts of cups and free bodies, and W over both:
 
      W = h^2 (H A^-1 H^T + J M^-1 J^T),
 
- H acting on the cup's free nodes, J on the bodies' velocities. A contact has a row for its normal
+ H acting on the cups' free nodes, J on the bodies' velocities. A contact has a row for its normal
  n and, with friction, two for tangents t1, t2 across it.
+
+ Where A is in pieces, as that of several cups, so is A^-1: contacts of different pieces meet in the
+ bodies alone. The rows stand piece by piece, those of pieces that touch together, and then those
+ of each contact between bodies.
 
  A contact of one node with a frictionless surface that does not give way needs a single column of
  A^-1 H^T, along its normal. Others take three, along the world's axes, for each of their nodes:
@@ -37,15 +42,15 @@ class ConstraintOperator {
   /** Sets the rows. Columns of contacts that were there before, in the same places, stay. */
   void SetContacts(const std::vector<Contact>& contacts);
   /// Is contact `i` bound to the normal it came with, until Reset()?
-  bool IsPlain(std::size_t i) const { return plain_column_[i] >= 0; }
+  bool IsPlain(std::size_t i) const { return plain_columns_[i].index >= 0; }
 
   /// Rows of each contact.
   const std::vector<ContactRows>& rows() const { return rows_; }
-  Eigen::Index num_rows() const { return num_rows_; }
+  Eigen::Index num_rows() const { return W_.num_rows(); }
   /// n, or n, t1, t2 of a contact, a column each, world axes.
   static Eigen::Matrix3d Axes(const Contact& contact);
   /// [m/N]
-  const Eigen::MatrixXd& W() const { return plain_ ? cup_.W() : W_; }
+  const ContactCompliance& W() const { return W_; }
   /// Are all contacts single normals of nodes on what does not move?
   bool plain() const { return plain_; }
 
@@ -67,29 +72,48 @@ class ConstraintOperator {
     Eigen::Matrix<double, 6, 6> M;
     Eigen::Matrix<double, 6, 6> M_inverse;
   };
+  struct Column {
+    int piece{0};
+    int index{-1};  // in its piece; -1: none
+  };
+  /// What is known of a piece of A.
+  struct Piece {
+    DelassusOperator compliance;  // of its columns
+    std::vector<NodeColumn> new_columns;
+    std::size_t group{0};  // of W's
+    std::vector<Eigen::Triplet<double>> entries;
+    Eigen::SparseMatrix<double, Eigen::RowMajor> H;  // #rows of its group by #columns
+
+    int next_column() const {
+      return compliance.num_contacts() + static_cast<int>(new_columns.size());
+    }
+  };
   bool MayBePlain(const Contact& contact) const;
+  Piece& PieceOf(int free_row) { return pieces_[PieceIndex(free_row)]; }
+  std::size_t PieceIndex(int free_row) const {
+    return static_cast<std::size_t>(factorization_->PieceOf(free_row / 3));
+  }
   void AddColumns(const std::vector<Contact>& contacts);
   void SetRows(const std::vector<Contact>& contacts);
+  std::vector<std::size_t> FindGroups(const std::vector<Contact>& contacts);
+  void SetH(const std::vector<Contact>& contacts);
   void AddBodyEntries(const Contact& contact, int object, double sign, const ContactRows& rows);
   void UpdateW();
 
   const ImplicitEuler* system_;
+  const SparseCholesky* factorization_{nullptr};
   const RigidWorld* world_{nullptr};
   double h_{0.0};
   std::vector<Body> bodies_;
-  DelassusOperator cup_;           // of the columns
-  std::vector<int> plain_column_;  // by contact; -1: takes those of its nodes
-  std::map<int, int> columns_of_;  // a node's first of three columns
-  std::vector<NodeColumn> new_columns_;
-  int num_columns_{0};
+  std::vector<Piece> pieces_;
+  std::vector<Column> plain_columns_;  // by contact; those without take their nodes'
+  std::map<int, Column> columns_of_;   // a node's first of three columns
 
   bool plain_{true};
-  Eigen::Index num_rows_{0};
   std::vector<ContactRows> rows_;
-  std::vector<Eigen::Index> rows_between_bodies_;
-  Eigen::SparseMatrix<double, Eigen::RowMajor> H_;  // #rows by #columns
-  Eigen::MatrixXd J_;                               // #rows by 6 #bodies
-  Eigen::MatrixXd W_;
+  Eigen::MatrixXd J_;  // #rows by 6 #bodies
+  ContactCompliance W_;
+  std::size_t between_bodies_{0};  // first of W's groups without a piece
 };
 
 }  // namespace vacuum_gripper_sim

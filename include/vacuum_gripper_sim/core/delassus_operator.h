@@ -28,9 +28,9 @@ class DelassusOperator {
   /// h H A^-1 b of an impulse b [N s] given as y = L^-1 P b. [m]
   Eigen::VectorXd GapChanges(const Eigen::VectorXd& y) const;
   /// b += h H^T lambda. @param lambda Contact forces. [N] @param[in,out] b [N s]
-  void AddImpulses(const Eigen::VectorXd& lambda, Eigen::VectorXd* b) const;
+  void AddImpulses(const Eigen::Ref<const Eigen::VectorXd>& lambda, Eigen::VectorXd* b) const;
   /// y += L^-1 P h H^T lambda. @param lambda Contact forces. [N]
-  void AddForces(const Eigen::VectorXd& lambda, Eigen::VectorXd* y) const;
+  void AddForces(const Eigen::Ref<const Eigen::VectorXd>& lambda, Eigen::VectorXd* y) const;
 
  private:
   const SparseCholesky* factorization_{nullptr};

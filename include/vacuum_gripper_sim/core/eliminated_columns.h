@@ -53,6 +53,7 @@ class EliminatedColumns {
     return {values->data() + block.offset, block.num_columns, block.num_rows};
   }
   std::size_t LargestBlock() const;  // entries
+  Eigen::Index MostRows() const;     // of a block
   Eigen::MatrixXd InGivenOrder(const Eigen::MatrixXd& sorted, const EliminatedColumns& other) const;
 
   std::vector<int> order_;     // the sorted columns' numbers in B

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "vacuum_gripper_sim/core/contact_compliance.h"
 #include "vacuum_gripper_sim/core/mcp_solver.h"
 #include "vacuum_gripper_sim/core/parameters.h"
 
@@ -18,7 +19,7 @@ struct ContactRows {
   Eigen::Index tangent() const { return normal + 1; }  ///< The first of two.
 };
 
-/** Solves contacts with Coulomb friction, coupled through W in all directions:
+/** Solves contacts, those with friction by Coulomb's law, coupled through W in all directions:
 
      delta_end = delta + W lambda,
      0 <= delta_n  perp  lambda_n >= 0,
@@ -27,26 +28,30 @@ struct ContactRows {
  where delta_t is the slip during the step. The cone is exact: no pyramid, and a sliding contact
  does not rise from its surface.
 
+ Groups that nothing couples are solved one by one, those without friction by SolveContacts();
+ coupled ones together:
+
  kActiveSet: a semi-smooth Newton method on the projections of [Alart 1991],
 
      lambda_n = max(0, lambda_n - delta_n / W_nn),
      lambda_t = proj(lambda_t - delta_t / W_tt) onto the disc of radius mu lambda_n,
 
- in the unknowns of closed contacts only. Where a full step does not lessen the residual, it is
- shortened, and sweeps of Gauss-Seidel, which always lessen it in the end, bring the next start.
+ in the unknowns of closed contacts only, see LinearizedContacts. Where a full step does not lessen
+ the residual, it is shortened, and sweeps of Gauss-Seidel, which always lessen it in the end, bring
+ the next start.
  kGaussSeidel: contact by contact on the same projections, tangents after the normal.
 
- @param W       n by n, symmetric. [m/N] @param delta Gaps and slips without forces, n. [m]
- @param rows    Of every contact; together they cover W.
+ @param delta   Gaps and slips without forces, n. [m]
+ @param rows    Of every contact; together they cover W, and each is within a group.
  @param[in,out] lambda On entry the warm start, on exit the forces, n. [N]
  @returns iterations, and the residual: the largest |min(delta_n, W_nn lambda_n)| or distance of
-   W_tt lambda_t from its projection. [m]
+   W_tt lambda_t from its projection. [m] Of groups solved one by one the largest.
  @throws std::invalid_argument if the sizes disagree.
 
  [Alart 1991] P. Alart, A. Curnier, "A mixed formulation for frictional contact problems prone to
    Newton like solution methods", Comput. Methods Appl. Mech. Eng. 92(3). */
-McpStatistics SolveFrictionalContacts(const Eigen::MatrixXd& W, const Eigen::VectorXd& delta,
-                                      const std::vector<ContactRows>& rows,
-                                      const ContactParameters& parameters, Eigen::VectorXd* lambda);
+McpStatistics SolveContactGroups(const ContactCompliance& W, const Eigen::VectorXd& delta,
+                                 const std::vector<ContactRows>& rows,
+                                 const ContactParameters& parameters, Eigen::VectorXd* lambda);
 
 }  // namespace vacuum_gripper_sim

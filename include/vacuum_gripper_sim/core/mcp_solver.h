@@ -19,8 +19,9 @@ struct McpStatistics {
 inline constexpr double kContactRegularization = 1e-12;
 
 /// Cholesky factor of some rows and columns of W, regularised so much, or more where rounding wants
-/// it. @param W_lower Lower triangle. @returns a factor whose info() tells if it is one.
-Eigen::LLT<Eigen::MatrixXd> FactorOfContacts(const Eigen::MatrixXd& W_lower);
+/// it. @param W_lower Lower triangle. @param[out] share By which the diagonal is larger.
+/// @returns a factor whose info() tells if it is one.
+Eigen::LLT<Eigen::MatrixXd> FactorOfContacts(const Eigen::MatrixXd& W_lower, double* share);
 
 /** Solves the contact part of the mixed complementarity problem of [Bernardin, Sec. III-C], the
  pressure being known and part of delta:

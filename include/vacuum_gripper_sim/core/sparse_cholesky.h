@@ -32,6 +32,10 @@ class SparseCholesky {
   /// node blocks of three. @throws std::invalid_argument if the size is not a multiple of three.
   void Analyze(const Eigen::SparseMatrix<double>& A);
   bool analyzed() const { return !supernodes_.empty(); }
+  /// A falls into this many pieces without entries between them,
+  int num_pieces() const { return num_pieces_; }
+  /// of which a node belongs to one.
+  int PieceOf(int node) const { return piece_of_[static_cast<std::size_t>(node)]; }
 
   /// Factorises. @param A Same sparsity as that of Analyze().
   /// @returns false if A is not positive definite, to the given precision; the factor is unusable
@@ -87,6 +91,7 @@ class SparseCholesky {
   };
 
   void Order(const std::vector<std::vector<int>>& graph);
+  void FindPieces();
   void FindSupernodes(const std::vector<std::vector<int>>& graph);
   void MergeSmallSupernodes();
   void LinkSupernodes();
@@ -110,6 +115,8 @@ class SparseCholesky {
   std::vector<int> position_;      // of a node in elimination order
   std::vector<int> node_at_;       // the inverse
   std::vector<int> tree_;          // elimination tree, by position; -1: root
+  std::vector<int> piece_of_;      // by node
+  int num_pieces_{0};
   std::vector<Supernode> supernodes_;
   std::vector<int> supernode_of_;             // by position
   std::vector<std::pair<int, int>> entries_;  // (value of A, place in the panel), by supernode
