@@ -13,7 +13,7 @@ from vacuum_gripper_sim.msg import VacuumState
 from vacuum_gripper_sim.srv import SetFault, SetFaultRequest
 
 AMBIENT = 101325.0  # [Pa]
-ULTIMATE = -85000.0  # [Pa], of the ejector
+ULTIMATE = -50000.0  # [Pa], of the ejector
 
 
 class VacuumTest(GripTestCase):
