@@ -162,8 +162,6 @@ ContactWrenches ToContactWrenches(const StepResult& result, const std::vector<Ri
   return message;
 }
 
-bool IsGrasping(const GripSummary& grip) {
-  return Holds(grip.status) && grip.gauge_pressure < 0.0;
-}
+bool IsGrasping(const GripSummary& grip) { return Holds(grip.status) && grip.gauge_pressure < 0.0; }
 
 }  // namespace vacuum_gripper_sim
