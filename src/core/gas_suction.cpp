@@ -262,8 +262,10 @@ void GasSuction::Report(double setpoint, double h, const SuctionSolution& soluti
     flows_.status[cup] = StatusOf(cup, setpoint, can_hold, solution, &state->cups[cup]);
   }
   air.gas = gas_.end;
+  flows_.pressure.resize(num_cups);
   for (std::size_t cup = 0; cup < num_cups; ++cup) {
     air.gas.volume[cup] = std::max(volume_[cup], 0.0) + vacuum_.line.dead_volume;
+    flows_.pressure[cup] = air.gas.pressure(cup) - ambient;
   }
   air.source = source_.state();
   air.compliance = compliance_;

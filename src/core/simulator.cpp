@@ -390,6 +390,7 @@ void Simulator::Implementation::ReportAir() {
   result_.gas_amount = state_.grip.air.gas.total_amount();
   for (std::size_t cup = 0; cup < result_.cups.size(); ++cup) {
     result_.cups[cup].status = flows.status[cup];
+    result_.cups[cup].gauge_pressure = flows.pressure[cup];
     result_.cups[cup].leak_flow = flows.leak_flow[cup];
     result_.cups[cup].leak_area = flows.leak_area[cup];
   }

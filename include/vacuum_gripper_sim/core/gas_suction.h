@@ -24,6 +24,7 @@ namespace vacuum_gripper_sim {
 struct AirFlows {
   double manifold_pressure{0.0};   ///< Gauge. [Pa]
   double source_flow{0.0};         ///< That the source drew; negative: it let in.
+  std::vector<double> pressure;    ///< Of the air in each cup, gauge: N / V. [Pa]
   std::vector<double> leak_flow;   ///< Into each cup.
   std::vector<double> leak_area;   ///< Of the orifice that would leak as much. [m^2]
   std::vector<SealStatus> status;  ///< Of each cup.

@@ -65,8 +65,8 @@ struct StepTimings {
 /// State of the grip of a cup, or of a gripper: the sum of its cups.
 struct GripSummary {
   SealStatus status{SealStatus::kOpen};
-  double gauge_pressure{0.0};  ///< lambda_p, in the cavity during this step; of several cavities
-                               ///< the lowest. [Pa]
+  double gauge_pressure{0.0};  ///< In the cavity: lambda_p; where air flows that of the air, the
+                               ///< same within gas_imbalance; of several cavities the lowest. [Pa]
   double bottleneck_gap{0.0};  ///< Widest gap from port to rim; < 0: loaded ring; +inf: no surface.
                                ///< [m]
   SealOpening opening;  ///< Where the cavity is open to the ambient: of several cavities, the
