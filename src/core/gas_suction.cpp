@@ -182,10 +182,11 @@ void GasSuction::MeasureVolumes(const Eigen::Matrix3Xd& x_W, const RigidWorld& w
   const CavitySurface& surface = cups_->cavities;
   PointAreaVectors(surface, contact.x_W, &areas_end_);
   motion_W_.resize(3, surface.num_points());
+  const bool objects_move = world.AnyMoves();
   for (int i = 0; i < surface.num_points(); ++i) {
     const int node = surface.nodes[static_cast<std::size_t>(i)];
     motion_W_.col(i) = contact.x_W.col(node) - x_W.col(node);
-    if (!world.AnyMoves()) continue;
+    if (!objects_move) continue;
     const int object = world.ObjectOf(stage.NearestSurface(node));
     motion_W_.col(i) -= world.Displacement(object, x_W.col(node), contact.dv.bodies, h);
   }

@@ -6,6 +6,7 @@
 #include <limits>
 #include <sstream>
 #include <stdexcept>
+#include <utility>
 
 #include "vacuum_gripper_sim/core/triangle_geometry.h"
 

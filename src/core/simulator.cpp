@@ -87,7 +87,7 @@ class Simulator::Implementation {
   StepResult result_;
 
  private:
-  void ClassifyAtRest();
+  std::vector<double> ClassifyAtRest();
   void FindClampedVelocityChange(const Eigen::Isometry3d& X_WM);
   bool Advance(const Command& command);
   bool SolveSuction(const Command& command);
@@ -137,11 +137,11 @@ void Simulator::Implementation::SetFaults(const VacuumFaults& faults) {
   if (gas_suction_) gas_suction_->SetFaults(faults);
 }
 
-/// By distances alone.
-void Simulator::Implementation::ClassifyAtRest() {
-  state_.grip.classification = Classify(
-      cups_.cavities, NearestDistances(world_.surfaces(), cups_.cavities.nodes, state_.x_W),
-      *parameters_.seal.open_gap);
+/// By the distances of the cavity points alone. @returns them. [m]
+std::vector<double> Simulator::Implementation::ClassifyAtRest() {
+  std::vector<double> gap = NearestDistances(world_.surfaces(), cups_.cavities.nodes, state_.x_W);
+  state_.grip.classification = Classify(cups_.cavities, gap, *parameters_.seal.open_gap);
+  return gap;
 }
 
 void Simulator::Implementation::Reset(const Eigen::Isometry3d& X_WM) {
@@ -156,8 +156,7 @@ void Simulator::Implementation::Reset(const Eigen::Isometry3d& X_WM) {
   result_.time = time;
   result_.X_WM = X_WM;
   result_.x_W = state_.x_W;
-  ClassifyAtRest();
-  result_.gap = NearestDistances(world_.surfaces(), cups_.cavities.nodes, state_.x_W);
+  result_.gap = ClassifyAtRest();
   result_.classification = state_.grip.classification;
   if (gas_suction_) {
     state_.grip.air = gas_suction_->AtRest(state_.x_W, result_.classification.wet);

@@ -25,9 +25,7 @@ inline SimulatorParameters A20(double time_step) {
   return parameters;
 }
 
-inline bool Holds(const StepResult& result) {
-  return result.status == SealStatus::kSealed || result.status == SealStatus::kRegulating;
-}
+inline bool Holds(const StepResult& result) { return Holds(result.status); }
 
 /** A cup over a plane through the origin of its world, driven along the plane's normal; watches
  what a whole cycle must never do. The world may be posed anywhere: X_AW maps what is said here
