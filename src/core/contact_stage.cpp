@@ -61,6 +61,7 @@ ContactStage::ContactStage(const TetMesh& mesh, const ImplicitEuler& system, Lin
 
 void ContactStage::ForgetForces() {
   warm_starts_.clear();
+  last_motion_.SetZero(0, 0);
   candidates_of_ = kNoFactorization;
 }
 
@@ -262,25 +263,35 @@ bool ContactStage::Solve(const Eigen::Matrix3Xd& load, ContactSolution* solution
   return true;
 }
 
-/// @returns false if the factorisation is too old for this.
-bool ContactStage::SolveWithFactorization(ContactSolution* solution, StepTimings* timings) {
+/// Half solves for the free motion. A factorisation that is not the step's own errs by what it is
+/// asked to bridge: by less from the last forces and the last motion on.
+void ContactStage::Start(ContactSolution* solution, StepTimings* timings) {
   solution->statistics = McpStatistics();
   solution->dv = none_;
   MeasureCandidates([&](std::uint64_t key) { return finder_.Ahead(key, coasting_); });
-  // An earlier factorisation errs by what it is asked to bridge: by less from the last forces on.
   for (Candidate& candidate : candidates_) {
     candidate.applied = solver_->current() ? Vector3d::Zero().eval() : candidate.force;
   }
+  UpdateOperator(timings);
+  const Stopwatch stopwatch(&timings->free_motion);
+  with_forces_ = impulse_;
+  operator_.AddImpulses(Stack(&Candidate::applied, &applied_), &with_forces_);
+  const bool knows_a_motion = last_motion_.cup.size() == none_.cup.size() &&
+                              last_motion_.bodies.size() == none_.bodies.size();
+  if (solver_->old() && knows_a_motion) {
+    solution->dv = last_motion_;
+    solver_->Start(operator_, &solution->dv, &with_forces_);
+    FindEnd(solution->dv, &end_);
+    MeasureCandidates([&](std::uint64_t key) { return finder_.Ahead(key, end_); });
+  }
+  y_.cup = solver_->factorization().Eliminate(with_forces_.cup);
+  y_.bodies = operator_.BodyVelocities(with_forces_.bodies);
+}
+
+/// @returns false if the factorisation is too old for this.
+bool ContactStage::SolveWithFactorization(ContactSolution* solution, StepTimings* timings) {
+  Start(solution, timings);
   for (int pass = 0; pass < kMaxPasses; ++pass) {
-    UpdateOperator(timings);
-    y_ = none_;
-    if (pass == 0) {
-      const Stopwatch stopwatch(&timings->free_motion);
-      with_forces_ = impulse_;
-      operator_.AddImpulses(Stack(&Candidate::applied, &applied_), &with_forces_);
-      y_.cup = solver_->factorization().Eliminate(with_forces_.cup);
-      y_.bodies = operator_.BodyVelocities(with_forces_.bodies);
-    }
     SolveCandidates(solution, timings);
     {
       const Stopwatch stopwatch(&timings->correction);
@@ -311,7 +322,10 @@ bool ContactStage::SolveWithFactorization(ContactSolution* solution, StepTimings
     MeasureCandidates([&](std::uint64_t key) { return finder_.At(key, end_); });
     for (Candidate& candidate : candidates_) candidate.applied = candidate.force;
     if (passed) AddCandidates(selected_);
+    UpdateOperator(timings);
+    y_ = none_;
   }
+  last_motion_ = solution->dv;
   return true;
 }
 

@@ -5,7 +5,9 @@
 #include <cstddef>
 #include <utility>
 
+#include "vacuum_gripper_sim/core/background_factorization.h"
 #include "vacuum_gripper_sim/core/linearized_contacts.h"
+#include "vacuum_gripper_sim/core/spread_factorization.h"
 
 namespace vacuum_gripper_sim {
 namespace {
@@ -54,52 +56,59 @@ LinearSolver::LinearSolver(const LinearSolverParameters& parameters, ImplicitEul
     : parameters_(parameters), system_(system) {
   factorization_.Analyze(system->matrix().pattern());
   if (parameters.method == LinearSolverMethod::kAsynchronous) {
-    background_ = std::make_unique<BackgroundFactorization>(factorization_, system->matrix(),
-                                                            parameters.precision);
+    pending_ = std::make_unique<BackgroundFactorization>(factorization_, system->matrix(),
+                                                         parameters.precision);
+  } else if (parameters.method == LinearSolverMethod::kConjugateGradient) {
+    pending_ = std::make_unique<SpreadFactorization>(
+        factorization_, system->matrix(), parameters.precision, parameters.refactor_interval);
   }
 }
 
 bool LinearSolver::Compute() {
-  const bool worth_renewing = WornOut(parameters_.max_iterations);
-  const bool worth_taking = WornOut(kTakingCost);
+  const bool old = iterations_ > 0 && step_ - factorized_step_ + 1 >= parameters_.refactor_interval;
+  const bool due = old || WornOut(parameters_.max_iterations);
+  const bool worth_taking = old || WornOut(kTakingCost);
   ++step_;
-  const bool iterated = iterations_ > 0;
   iterations_since_ += iterations_;
   iterations_ = 0;
   iterations_before_ = 0;
   factorizations_ = 0;
 
   bool good = usable_;
-  if (parameters_.method == LinearSolverMethod::kDirect) good = false;
-  if (parameters_.method == LinearSolverMethod::kConjugateGradient) {
-    good = good && !worth_renewing && step_ - factorized_step_ < parameters_.refactor_interval;
-  }
-  if (parameters_.method == LinearSolverMethod::kAsynchronous) {
-    const bool old = iterated && step_ - factorized_step_ >= parameters_.refactor_interval;
-    good = ExchangeWithBackground(worth_taking || old) && good;
+  switch (parameters_.method) {
+    case LinearSolverMethod::kDirect:
+      good = false;
+      break;
+    case LinearSolverMethod::kConjugateGradient:
+      good = GoOnWithPending(due, true) && good;
+      break;
+    case LinearSolverMethod::kAsynchronous:
+      good = GoOnWithPending(true, worth_taking) && good;
+      break;
   }
   return good || Renew();
 }
 
-/// Once the second thread has finished, takes the result, if that is worth it, and hands over this
-/// step's A. @returns false if it came upon an A that was not positive definite.
-bool LinearSolver::ExchangeWithBackground(bool worth_taking) {
-  using Status = BackgroundFactorization::Status;
+/// Once the pending factorisation is finished, takes it, if that is worth it; starts another one
+/// with this step's A. @returns false if it came upon an A that was not positive definite.
+bool LinearSolver::GoOnWithPending(bool worth_starting, bool worth_taking) {
+  using Status = PendingFactorization::Status;
   bool positive_definite = true;
-  if (background_->status() == Status::kDone) {
-    SparseCholesky* const finished = background_->Finish();
+  pending_->Advance();
+  if (pending_->status() == Status::kDone) {
+    SparseCholesky* const finished = pending_->Finish();
     positive_definite = finished != nullptr;
     // A step that could not wait may have made a newer one.
-    if (positive_definite && worth_taking && background_step_ > factorized_step_) {
+    if (positive_definite && worth_taking && pending_step_ > factorized_step_) {
       std::swap(factorization_, *finished);
-      factorized_step_ = background_step_;
+      factorized_step_ = pending_step_;
       iterations_since_ = 0;
       ++generation_;
     }
   }
-  if (background_->status() == Status::kIdle) {
-    background_->Start(system_->linearization());
-    background_step_ = step_;
+  if (worth_starting && pending_->status() == Status::kIdle) {
+    pending_->Start(system_->linearization());
+    pending_step_ = step_;
   }
   return positive_definite;
 }
@@ -129,6 +138,7 @@ bool LinearSolver::Renew() {
 }
 
 bool LinearSolver::FactorizeWith(Precision precision) {
+  if (pending_) pending_->Abandon();
   usable_ = factorization_.Factorize(system_->A_ff(), precision);
   factorized_step_ = step_;
   iterations_since_ = 0;
@@ -136,6 +146,15 @@ bool LinearSolver::FactorizeWith(Precision precision) {
   ++generation_;
   ++factorizations_;
   return usable_;
+}
+
+void LinearSolver::Start(const ConstraintOperator& constraints, SystemVector* dv, SystemVector* b) {
+  Ap_.cup = system_->Multiply(dv->cup);
+  Ap_.bodies = constraints.BodyImpulses(dv->bodies);
+  const double energy = dv->dot(Ap_);
+  const double multiple = energy > 0.0 ? dv->dot(*b) / energy : 0.0;
+  *dv *= multiple;
+  b->Add(-multiple, Ap_);
 }
 
 bool LinearSolver::Refine(const SystemVector& b, const ConstraintOperator& constraints,

@@ -40,13 +40,37 @@ void AddChild(const Scalar* update, const std::vector<int>& in_parent, std::size
 }  // namespace
 
 bool SparseCholesky::Factorize(const Eigen::SparseMatrix<double>& A, Precision precision) {
+  Begin(precision);
+  return ContinueTo(1.0, A) == Progress::kDone;
+}
+
+void SparseCholesky::Begin(Precision precision) {
   if (precision == Precision::kSingle && !std::holds_alternative<Numbers<float>>(numbers_)) {
     numbers_ = Numbers<float>();
   } else if (precision == Precision::kDouble &&
              !std::holds_alternative<Numbers<double>>(numbers_)) {
     numbers_ = Numbers<double>();
   }
-  return std::visit([&](auto& numbers) { return Factorize(A, &numbers); }, numbers_);
+  std::visit(
+      [&](auto& numbers) {
+        numbers.factor.resize(factor_size_);
+        for (std::size_t i = 0; i < 2; ++i) numbers.updates[i].resize(update_sizes_[i]);
+      },
+      numbers_);
+  next_front_ = 0;
+}
+
+SparseCholesky::Progress SparseCholesky::ContinueTo(double share,
+                                                    const Eigen::SparseMatrix<double>& A) {
+  const auto go_on = [&](auto& numbers) {
+    for (; next_front_ < supernodes_.size(); ++next_front_) {
+      const Supernode& front = supernodes_[next_front_];
+      if (front.share_before >= share) return Progress::kPart;
+      if (!EliminateFront(front, A, &numbers)) return Progress::kNotPositiveDefinite;
+    }
+    return Progress::kDone;
+  };
+  return std::visit(go_on, numbers_);
 }
 
 Eigen::VectorXd SparseCholesky::Eliminate(const Eigen::VectorXd& b) const {
@@ -61,33 +85,30 @@ EliminatedColumns SparseCholesky::EliminateColumns(const std::vector<NodeColumn>
   return std::visit([&](const auto& numbers) { return EliminateColumns(numbers, B); }, numbers_);
 }
 
+/// @returns false if A is not positive definite.
 template <typename Scalar>
-bool SparseCholesky::Factorize(const Eigen::SparseMatrix<double>& A,
-                               Numbers<Scalar>* numbers) const {
-  numbers->factor.resize(factor_size_);
-  for (std::size_t i = 0; i < 2; ++i) numbers->updates[i].resize(update_sizes_[i]);
-  for (const Supernode& front : supernodes_) {
-    Scalar* const panel = numbers->factor.data() + front.offset;
-    const Index rows = 3 * front.num_rows();
-    const Index own = 3 * front.width;
-    const Index below = rows - own;
-    std::fill_n(panel, rows * own, Scalar(0));
-    for (std::size_t e = front.entries_begin; e < front.entries_end; ++e) {
-      panel[entries_[e].second] += static_cast<Scalar>(A.valuePtr()[entries_[e].first]);
-    }
-    for (const int c : front.children) {
-      const Supernode& child = supernodes_[static_cast<std::size_t>(c)];
-      AddChild(numbers->UpdateOf(child), child.in_parent, 0, child.num_in_own, panel, rows);
-    }
-    if (!FactorizePanel(rows, own, panel)) return false;
-    if (below == 0) continue;
-    Scalar* const update = numbers->UpdateOf(front);
-    NegativeSquare(below, own, panel + own, rows, update);
-    for (const int c : front.children) {
-      const Supernode& child = supernodes_[static_cast<std::size_t>(c)];
-      AddChild(numbers->UpdateOf(child), child.in_parent, child.num_in_own, child.in_parent.size(),
-               update - own * (below + 1), below);
-    }
+bool SparseCholesky::EliminateFront(const Supernode& front, const Eigen::SparseMatrix<double>& A,
+                                    Numbers<Scalar>* numbers) const {
+  Scalar* const panel = numbers->factor.data() + front.offset;
+  const Index rows = 3 * front.num_rows();
+  const Index own = 3 * front.width;
+  const Index below = rows - own;
+  std::fill_n(panel, rows * own, Scalar(0));
+  for (std::size_t e = front.entries_begin; e < front.entries_end; ++e) {
+    panel[entries_[e].second] += static_cast<Scalar>(A.valuePtr()[entries_[e].first]);
+  }
+  for (const int c : front.children) {
+    const Supernode& child = supernodes_[static_cast<std::size_t>(c)];
+    AddChild(numbers->UpdateOf(child), child.in_parent, 0, child.num_in_own, panel, rows);
+  }
+  if (!FactorizePanel(rows, own, panel)) return false;
+  if (below == 0) return true;
+  Scalar* const update = numbers->UpdateOf(front);
+  NegativeSquare(below, own, panel + own, rows, update);
+  for (const int c : front.children) {
+    const Supernode& child = supernodes_[static_cast<std::size_t>(c)];
+    AddChild(numbers->UpdateOf(child), child.in_parent, child.num_in_own, child.in_parent.size(),
+             update - own * (below + 1), below);
   }
   return true;
 }

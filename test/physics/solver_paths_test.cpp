@@ -115,6 +115,31 @@ TEST(SolverPaths, SinglePrecisionStaysWithDoubleThroughAWholeCycle) {
   }
 }
 
+// W and Gauss-Seidel to 1e-12 m on a factorisation in double precision, against what is run.
+TEST(SolverPaths, TheFastPathsStayWithTheReferenceThroughAWholeCycle) {
+  for (const char* const bell : {"linear_700", "quadratic_700"}) {
+    for (const double young_modulus : {338000.0, 593000.0}) {
+      SimulatorParameters parameters = A20(0.01);
+      parameters.material.young_modulus = young_modulus;
+      SimulatorParameters reference = parameters;
+      reference.linear_solver.precision = Precision::kDouble;
+      reference.contact.method = ContactSolverMethod::kGaussSeidel;
+      reference.contact.tolerance = 1e-12;
+      reference.contact.max_iterations = 1000000;
+      for (const auto method :
+           {LinearSolverMethod::kDirect, LinearSolverMethod::kConjugateGradient}) {
+        SCOPED_TRACE(testing::Message() << bell << ", " << young_modulus << " Pa, method "
+                                        << static_cast<int>(method));
+        parameters.linear_solver.method = method;
+        const Difference difference = WholeCycleDifference(parameters, reference, bell);
+        EXPECT_LT(difference.position, 1e-6);
+        EXPECT_LT(difference.force, 1e-4);
+        EXPECT_TRUE(difference.same_status);
+      }
+    }
+  }
+}
+
 // Factorisations of every age up to 15 steps, deterministically.
 TEST(SolverPaths, ConjugateGradientsWithAnOldFactorisationAgreeWithTheDirectSolver) {
   for (const char* const bell : {"linear_700", "quadratic_700"}) {

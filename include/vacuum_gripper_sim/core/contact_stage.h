@@ -113,6 +113,7 @@ class ContactStage {
   void UpdateOperator(StepTimings* timings);
   void SolveCandidates(ContactSolution* solution, StepTimings* timings);
   bool SolveWithFactorization(ContactSolution* solution, StepTimings* timings);
+  void Start(ContactSolution* solution, StepTimings* timings);
   bool Refine(ContactSolution* solution);
   const Eigen::VectorXd& Stack(Eigen::Vector3d Candidate::*values, Eigen::VectorXd* stacked) const;
   void SetForces(const Eigen::VectorXd& lambda);
@@ -134,6 +135,7 @@ class ContactStage {
   std::vector<RigidSurface> surfaces_end_;  // of the current trial, if bodies move
   SystemVector impulse_;                    // of free motion and load
   SystemVector y_;                          // what a pass adds to the motion, half solved for
+  SystemVector last_motion_;                // of the last solve, maybe of the last step
   TrialEnd coasting_, end_;                 // without a change of velocity, and of the trial
   // Kept for their memory.
   SystemVector none_, with_forces_;

@@ -5,10 +5,10 @@
 #include <memory>
 #include <vector>
 
-#include "vacuum_gripper_sim/core/background_factorization.h"
 #include "vacuum_gripper_sim/core/constraint_operator.h"
 #include "vacuum_gripper_sim/core/implicit_euler.h"
 #include "vacuum_gripper_sim/core/parameters.h"
+#include "vacuum_gripper_sim/core/pending_factorization.h"
 #include "vacuum_gripper_sim/core/sparse_cholesky.h"
 
 namespace vacuum_gripper_sim {
@@ -18,11 +18,12 @@ namespace vacuum_gripper_sim {
 
  kDirect factorises every A. The others are ways of [Bernardin, Sec. III-A]: an earlier A's
  factorisation preconditions conjugate gradients, so that the answer depends on their tolerance and
- not on the factorisation's age. kConjugateGradient renews it every `refactor_interval` steps, and
- before that when a step's iterations cost more than the average step since, the factorisation's own
- cost shared among them. kAsynchronous has a second thread factorise one A after the other and takes
- over by the same rules, as long as there are iterations to spare; how old its factorisation is
- depends on the threads' speed. */
+ not on the factorisation's age. A new one is due when a step's iterations cost more than the
+ average step since, the factorisation's own cost shared among them, and after `refactor_interval`
+ steps if they iterate. kConjugateGradient then begins one and spreads it over as many steps, so
+ that no step takes much longer than others. kAsynchronous has a second thread factorise one A after
+ the other and takes over what is due; how old its factorisation is depends on the threads' speed.
+ Where the iterations of a step do not end, its A is factorised at once. */
 class LinearSolver {
  public:
   /// @param system Its A_ff is the matrix; must outlive this.
@@ -44,10 +45,17 @@ class LinearSolver {
     return factorized_step_ == step_ && factorization_.precision() == Precision::kDouble;
   }
 
-  /// b - A dv. @param b [N s] @param dv [m/s]
-  Eigen::VectorXd Residual(const Eigen::VectorXd& b, const Eigen::VectorXd& dv) const {
-    return b - system_->Multiply(dv);
-  }
+  /// Does it belong to the A of an earlier step?
+  bool old() const { return factorized_step_ != step_; }
+
+  /** Finds where to start: the multiple of a guess that comes nearest to the solution of A dv = b
+   in the energy norm ([Fischer 1998] with one vector).
+   @param constraints Of factorization(); for the bodies' masses.
+   @param[in,out] dv Guess; its multiple. @param[in,out] b Impulses; less A dv. [N s]
+
+   [Fischer 1998] P. F. Fischer, "Projection techniques for iterative solution of Ax = b with
+   successive right-hand sides", Comput. Methods Appl. Mech. Eng. 163. */
+  void Start(const ConstraintOperator& constraints, SystemVector* dv, SystemVector* b);
 
   /** Solves A dv = b + h H^T lambda where `held` rows keep their gaps and slips and only they
    change their forces: conjugate gradients among the motions that move no held row, preconditioned
@@ -75,7 +83,7 @@ class LinearSolver {
   bool Hopeless(int iterations, double start, double now, double bound) const;
   bool WornOut(int cost) const;
   bool FactorizeWith(Precision precision);
-  bool ExchangeWithBackground(bool worth_taking);
+  bool GoOnWithPending(bool worth_starting, bool worth_taking);
 
   LinearSolverParameters parameters_;
   ImplicitEuler* system_;
@@ -84,13 +92,13 @@ class LinearSolver {
   int generation_{0};
   std::int64_t step_{0};
   std::int64_t factorized_step_{0};   // whose A factorization_ belongs to
-  std::int64_t background_step_{0};   // whose A the second thread has
+  std::int64_t pending_step_{0};      // whose A pending_ has
   std::int64_t iterations_since_{0};  // factorized_step_, without the current step
   int iterations_{0};
   int iterations_before_{0};  // of the step, with factorisations given up since
   int factorizations_{0};
   SystemVector r_, p_, Ap_;  // residual, direction and its product with A, in Refine()
-  std::unique_ptr<BackgroundFactorization> background_;  // kAsynchronous only
+  std::unique_ptr<PendingFactorization> pending_;  // not for kDirect
 };
 
 }  // namespace vacuum_gripper_sim

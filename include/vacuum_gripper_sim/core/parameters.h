@@ -37,12 +37,12 @@ struct LinearSolverParameters {
   LinearSolverMethod method{LinearSolverMethod::kDirect};
   Precision precision{Precision::kSingle};  ///< Of factorisations. kSingle: twice as fast and half
                                             ///< the memory; iterations make up for it.
-  double tolerance{1e-6};                   ///< CG: bound on |r| / |b|, or over what the cup's
+  double tolerance{2e-6};                   ///< CG: bound on |r| / |b|, or over what the cup's
                                             ///< weight makes of |b| if that is more. [-] > 0
-  int max_iterations{10};     ///< CG: a step that needs more factorises its A after all; about what
-                              ///< that costs, in iterations. >= 1
-  int refactor_interval{10};  ///< Steps that share a factorisation; kAsynchronous: if they iterate.
-                              ///< >= 1
+  int max_iterations{10};    ///< CG: a step that needs more factorises its A after all; about what
+                             ///< that costs, in iterations. >= 1
+  int refactor_interval{5};  ///< Steps after which a factorisation is old, if they iterate;
+                             ///< kConjugateGradient spreads the next one over as many. >= 1
 };
 
 enum class ContactSolverMethod { kGaussSeidel, kActiveSet };
