@@ -44,12 +44,13 @@ bool Suction::HoldSeals(ContactStage* stage, GripState* state, SuctionSolution* 
     if (pressures_[cup] != 0.0) holding_.push_back(static_cast<int>(cup));
   }
   do {
-    seen_.resize(static_cast<std::size_t>(seal_.max_rounds));
     SetWet(holding_, state->classification);
     for (int round = 1;; ++round) {
       if (!SolveOnce(stage, solution, timings)) return false;
       if (round == seal_.max_rounds || holding_.empty()) break;
-      seen_[static_cast<std::size_t>(round - 1)] = wet_;
+      const auto num_seen = static_cast<std::size_t>(round);
+      if (seen_.size() < num_seen) seen_.emplace_back();
+      seen_[num_seen - 1] = wet_;
       SetWet(holding_, solution->classification);
       const auto end = seen_.begin() + round;
       if (std::find(seen_.begin(), end, wet_) != end) break;  // fixed point or cycle
