@@ -26,20 +26,23 @@ constexpr int kPointsAlongARim = 8;    // besides the deepest one
 /// More points than needed would share the load in more ways than one.
 constexpr double kFlat = 0.05;
 
-// How many there are does not depend on `into`: their numbers name them from step to step.
+// Calls f(feeler) on all of a shape. How many there are does not depend on `into`: their numbers
+// name them from step to step.
 // @param into Direction, in S, in which the other surface lies.
 
-std::vector<Feeler> Feelers(const Plane&, const Vector3d& /*into*/) { return {}; }
+template <typename Function>
+void ForFeelers(const Plane&, const Vector3d& /*into*/, const Function& /*f*/) {}
 
-std::vector<Feeler> Feelers(const Sphere& sphere, const Vector3d& /*into*/) {
+template <typename Function>
+void ForFeelers(const Sphere& sphere, const Vector3d& /*into*/, const Function& f) {
   Feeler feeler;
   feeler.p_S.setZero();
   feeler.radius = sphere.radius;
-  return {feeler};
+  f(feeler);
 }
 
-std::vector<Feeler> Feelers(const Box& box, const Vector3d& /*into*/) {
-  std::vector<Feeler> feelers;
+template <typename Function>
+void ForFeelers(const Box& box, const Vector3d& /*into*/, const Function& f) {
   const Vector3d half = 0.5 * box.size;
   for (int along = 0; along < 3; ++along) {
     for (int side = 0; side < 4; ++side) {
@@ -52,15 +55,14 @@ std::vector<Feeler> Feelers(const Box& box, const Vector3d& /*into*/) {
       for (int i = first; i <= last; ++i) {
         p(along) = half(along) * (2.0 * i / (kPointsAlongAnEdge + 1) - 1.0);
         const bool inside = i > 0 && i <= kPointsAlongAnEdge;
-        feelers.push_back({p, 0.0, inside ? Vector3d::Unit(along) : Vector3d::Zero().eval()});
+        f(Feeler{p, 0.0, inside ? Vector3d::Unit(along) : Vector3d::Zero().eval()});
       }
     }
   }
-  return feelers;
 }
 
-std::vector<Feeler> Feelers(const Cylinder& cylinder, const Vector3d& into) {
-  std::vector<Feeler> feelers;
+template <typename Function>
+void ForFeelers(const Cylinder& cylinder, const Vector3d& into, const Function& f) {
   const double deepest = std::atan2(into.y(), into.x());
   for (const double side : {-0.5, 0.5}) {
     for (int i = -1; i < kPointsAlongARim; ++i) {
@@ -69,20 +71,18 @@ std::vector<Feeler> Feelers(const Cylinder& cylinder, const Vector3d& into) {
       feeler.p_S << cylinder.radius * std::cos(angle), cylinder.radius * std::sin(angle),
           side * cylinder.length;
       feeler.absent = i < 0 && into.head<2>().norm() < kFlat;  // the deepest is any of them
-      feelers.push_back(feeler);
+      f(feeler);
     }
   }
-  return feelers;
 }
 
-std::vector<Feeler> Feelers(const Mesh& mesh, const Vector3d& /*into*/) {
-  std::vector<Feeler> feelers;
+template <typename Function>
+void ForFeelers(const Mesh& mesh, const Vector3d& /*into*/, const Function& f) {
   for (Eigen::Index i = 0; i < mesh->vertices().cols(); ++i) {
     Feeler feeler;
     feeler.p_S = mesh->vertices().col(i);
-    feelers.push_back(feeler);
+    f(feeler);
   }
-  return feelers;
 }
 
 auto FindPlace(const std::vector<BodyContacts::Pair>& pairs, std::uint32_t id) {
@@ -111,12 +111,10 @@ void BodyContacts::Begin(const RigidWorld& world, double reach) {
       const RigidSurface& against = surfaces[static_cast<std::size_t>(surface)];
       const Vector3d into_W = -Distance(against, felt_out.X_FS.translation()).normal;
       const Vector3d into = felt_out.X_FS.linear().transpose() * into_W;
-      const std::vector<Feeler> feelers =
-          std::visit([&](const auto& shape) { return Feelers(shape, into); }, felt_out.shape);
-      for (const Feeler& feeler : feelers) {
+      const auto look = [&](const Feeler& feeler) {
         Pair pair;
         pair.id = id++;
-        if (feeler.absent) continue;
+        if (feeler.absent) return;
         pair.feeling = i;
         pair.surface = surface;
         pair.p_W = felt_out.X_FS * feeler.p_S;
@@ -126,12 +124,13 @@ void BodyContacts::Begin(const RigidWorld& world, double reach) {
                         ? sightings_[pair.id].BeginStep(against, pair.p_W, reach + pair.radius)
                         : Distance(against, pair.p_W);
         pair.seen.distance -= feeler.radius;
-        if (pair.seen.distance >= reach) continue;
+        if (pair.seen.distance >= reach) return;
         const Vector3d edge_W = felt_out.X_FS.linear() * feeler.edge_S;
         const bool carried_by_its_ends =
             !feeler.edge_S.isZero(0.0) && std::abs(pair.seen.normal.dot(edge_W)) < kFlat;
         if (!carried_by_its_ends) pairs_.push_back(pair);
-      }
+      };
+      std::visit([&](const auto& shape) { ForFeelers(shape, into, look); }, felt_out.shape);
     }
   }
 }

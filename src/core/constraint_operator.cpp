@@ -30,12 +30,14 @@ void ConstraintOperator::Reset(const SparseCholesky& factorization, const RigidW
   pieces_.resize(static_cast<std::size_t>(factorization.num_pieces()));
   for (Piece& piece : pieces_) piece.compliance.Reset(factorization, h);
   plain_columns_.clear();
-  columns_of_.clear();
+  columns_of_.assign(static_cast<std::size_t>(system_->num_free()), Column());
   bodies_.clear();
   for (int body = 0; body < world.num_bodies(); ++body) {
     bodies_.push_back({world.CentreOfMass(body), world.Mass(body), world.Mass(body).inverse()});
   }
-  SetContacts({});
+  plain_ = true;
+  rows_.clear();
+  num_rows_ = 0;
 }
 
 bool ConstraintOperator::MayBePlain(const Contact& contact) const {
@@ -80,7 +82,10 @@ void ConstraintOperator::AddColumns(const std::vector<Contact>& contacts) {
     for (int k = 0; k < contact.num_nodes; ++k) {
       const int node = contact.nodes[static_cast<std::size_t>(k)];
       const int row = system_->FreeRow(node);
-      if (row < 0 || !columns_of_.emplace(node, column_at(row)).second) continue;
+      if (row < 0) continue;
+      Column& first_of_node = columns_of_[static_cast<std::size_t>(row / 3)];
+      if (first_of_node.index >= 0) continue;
+      first_of_node = column_at(row);
       for (int axis = 0; axis < 3; ++axis) {
         PieceOf(row).new_columns.push_back({row / 3, Eigen::Vector3d::Unit(axis)});
       }
@@ -92,8 +97,8 @@ void ConstraintOperator::AddColumns(const std::vector<Contact>& contacts) {
   }
 }
 
-/// Numbers the groups of W, those of pieces first. @returns that of each contact.
-std::vector<std::size_t> ConstraintOperator::FindGroups(const std::vector<Contact>& contacts) {
+/// Numbers the groups of W, those of pieces first, and finds that of each contact.
+void ConstraintOperator::FindGroups(const std::vector<Contact>& contacts) {
   // For now a piece's group is the first piece of it.
   for (std::size_t p = 0; p < pieces_.size(); ++p) pieces_[p].group = p;
   const auto merge = [&](std::size_t a, std::size_t b) {
@@ -102,14 +107,14 @@ std::vector<std::size_t> ConstraintOperator::FindGroups(const std::vector<Contac
     }
   };
   constexpr std::size_t kNowhere = std::numeric_limits<std::size_t>::max();
-  std::vector<std::size_t> groups(contacts.size(), kNowhere);  // for now a piece of each contact
+  groups_.assign(contacts.size(), kNowhere);  // for now a piece of each contact
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     for (int k = 0; k < contacts[i].num_nodes; ++k) {
       const int row = system_->FreeRow(contacts[i].nodes[static_cast<std::size_t>(k)]);
       if (row < 0) continue;
       const std::size_t piece = PieceIndex(row);
-      if (groups[i] == kNowhere) groups[i] = piece;
-      merge(pieces_[groups[i]].group, pieces_[piece].group);
+      if (groups_[i] == kNowhere) groups_[i] = piece;
+      merge(pieces_[groups_[i]].group, pieces_[piece].group);
     }
   }
   std::size_t num_groups = 0;
@@ -117,29 +122,28 @@ std::vector<std::size_t> ConstraintOperator::FindGroups(const std::vector<Contac
     pieces_[p].group = pieces_[p].group == p ? num_groups++ : pieces_[pieces_[p].group].group;
   }
   between_bodies_ = num_groups;
-  for (std::size_t& group : groups) {
+  for (std::size_t& group : groups_) {
     group = group == kNowhere ? num_groups++ : pieces_[group].group;
   }
   W_.groups.resize(num_groups);
-  return groups;
 }
 
 void ConstraintOperator::SetRows(const std::vector<Contact>& contacts) {
-  const std::vector<std::size_t> groups = FindGroups(contacts);
+  FindGroups(contacts);
   for (ContactCompliance::Group& group : W_.groups) group.first = 0;  // for now its rows so far
   rows_.clear();
   for (std::size_t i = 0; i < contacts.size(); ++i) {
-    Index& next = W_.groups[groups[i]].first;
+    Index& next = W_.groups[groups_[i]].first;
     rows_.push_back({next, contacts[i].friction});
     next += rows_.back().size();
   }
-  Index first = 0;
+  num_rows_ = 0;
   for (ContactCompliance::Group& group : W_.groups) {
-    const Index size = std::exchange(group.first, first);
+    const Index size = std::exchange(group.first, num_rows_);
     group.C.resize(size, size);
-    first += size;
+    num_rows_ += size;
   }
-  for (std::size_t i = 0; i < contacts.size(); ++i) rows_[i].normal += W_.groups[groups[i]].first;
+  for (std::size_t i = 0; i < contacts.size(); ++i) rows_[i].normal += W_.groups[groups_[i]].first;
 }
 
 void ConstraintOperator::SetH(const std::vector<Contact>& contacts) {
@@ -158,23 +162,38 @@ void ConstraintOperator::SetH(const std::vector<Contact>& contacts) {
     }
     const Eigen::Matrix3d axes = Axes(contact);
     for (int k = 0; k < contact.num_nodes; ++k) {
-      const auto place = columns_of_.find(contact.nodes[static_cast<std::size_t>(k)]);
-      if (place == columns_of_.end()) continue;  // clamped
+      const int row = system_->FreeRow(contact.nodes[static_cast<std::size_t>(k)]);
+      if (row < 0) continue;
+      const Column& first_of_node = columns_of_[static_cast<std::size_t>(row / 3)];
       const double weight = contact.weights[static_cast<std::size_t>(k)];
       for (Index axis = 0; axis < rows_[i].size(); ++axis) {
         for (int xyz = 0; xyz < 3; ++xyz) {
-          add(first + axis, place->second, xyz, weight * axes(xyz, axis));
+          add(first + axis, first_of_node, xyz, weight * axes(xyz, axis));
         }
       }
     }
     AddBodyEntries(contact, contact.object, -1.0, rows_[i]);
     AddBodyEntries(contact, contact.other, 1.0, rows_[i]);
   }
-  for (Piece& piece : pieces_) {
-    piece.H.resize(W_.groups[piece.group].size(), piece.compliance.num_contacts());
-    piece.H.setFromTriplets(piece.entries.begin(), piece.entries.end());
-    piece.entries.clear();
+  for (Piece& piece : pieces_) Compress(W_.groups[piece.group].size(), &piece);
+}
+
+/// Makes H of its entries; unlike setFromTriplets() without memory of its own.
+void ConstraintOperator::Compress(Index num_rows, Piece* piece) {
+  std::vector<Eigen::Triplet<double>>& entries = piece->entries;
+  std::sort(entries.begin(), entries.end(), [](const auto& a, const auto& b) {
+    return std::pair(a.row(), a.col()) < std::pair(b.row(), b.col());
+  });
+  piece->H.resize(num_rows, piece->compliance.num_contacts());
+  auto entry = entries.begin();
+  for (Index row = 0; row < num_rows; ++row) {
+    piece->H.startVec(row);
+    for (; entry != entries.end() && entry->row() == row; ++entry) {
+      piece->H.insertBack(row, entry->col()) = entry->value();
+    }
   }
+  piece->H.finalize();
+  entries.clear();
 }
 
 void ConstraintOperator::AddBodyEntries(const Contact& contact, int object, double sign,
@@ -199,13 +218,15 @@ void ConstraintOperator::UpdateW() {
   W_.U.resize(num_rows(), J_.cols());
   for (std::size_t body = 0; body < bodies_.size(); ++body) {
     const auto first = 6 * static_cast<Index>(body);
-    const Eigen::Matrix<double, 6, 6> root = bodies_[body].M_inverse.llt().matrixL();
-    W_.U.middleCols<6>(first) = h_ * J_.middleCols<6>(first) * root;
+    Eigen::Matrix<double, 6, 6> root = bodies_[body].M_inverse.llt().matrixL();
+    root *= h_;
+    W_.U.middleCols<6>(first).noalias() = J_.middleCols<6>(first) * root;
   }
   for (ContactCompliance::Group& group : W_.groups) group.C.setZero();
   for (const Piece& piece : pieces_) {
-    const Eigen::MatrixXd H_A_inverse = piece.H * piece.compliance.W();  // with its h^2
-    W_.groups[piece.group].C += H_A_inverse * piece.H.transpose();
+    auto H_A_inverse = piece.by_column.Shape(piece.H.rows(), piece.H.cols());  // with its h^2
+    H_A_inverse.noalias() = piece.H * piece.compliance.W();
+    W_.groups[piece.group].C.noalias() += H_A_inverse * piece.H.transpose();
   }
   for (std::size_t g = between_bodies_; g < W_.groups.size(); ++g) {
     ContactCompliance::Group& group = W_.groups[g];
@@ -214,37 +235,41 @@ void ConstraintOperator::UpdateW() {
   }
 }
 
-VectorXd ConstraintOperator::BodyVelocities(const VectorXd& b) const {
-  VectorXd dV(b.size());
+void ConstraintOperator::BodyVelocities(const VectorXd& b, VectorXd* dV) const {
+  dV->resize(b.size());
   for (std::size_t body = 0; body < bodies_.size(); ++body) {
     const auto first = 6 * static_cast<Index>(body);
-    dV.segment<6>(first) = bodies_[body].M_inverse * b.segment<6>(first);
+    dV->segment<6>(first) = bodies_[body].M_inverse * b.segment<6>(first);
   }
-  return dV;
 }
 
-VectorXd ConstraintOperator::BodyImpulses(const VectorXd& dV) const {
-  VectorXd b(dV.size());
+void ConstraintOperator::BodyImpulses(const VectorXd& dV, VectorXd* b) const {
+  b->resize(dV.size());
   for (std::size_t body = 0; body < bodies_.size(); ++body) {
     const auto first = 6 * static_cast<Index>(body);
-    b.segment<6>(first) = bodies_[body].M * dV.segment<6>(first);
+    b->segment<6>(first) = bodies_[body].M * dV.segment<6>(first);
   }
-  return b;
 }
 
-VectorXd ConstraintOperator::GapChanges(const SystemVector& y) const {
-  VectorXd changes = VectorXd::Zero(num_rows());
+/// h J^T lambda of a body.
+RigidWorld::Vector6d ConstraintOperator::ImpulseOn(std::size_t body, const VectorXd& lambda) const {
+  return h_ * J_.middleCols<6>(6 * static_cast<Index>(body)).transpose() * lambda;
+}
+
+void ConstraintOperator::GapChanges(const SystemVector& y, VectorXd* changes) const {
+  changes->setZero(num_rows());
   for (const Piece& piece : pieces_) {
     const ContactCompliance::Group& group = W_.groups[piece.group];
-    auto of_group = changes.segment(group.first, group.size());
+    auto of_group = changes->segment(group.first, group.size());
     if (plain_) {
-      of_group = piece.compliance.GapChanges(y.cup);
+      piece.compliance.GapChanges(y.cup, of_group);
     } else {
-      of_group += piece.H * piece.compliance.GapChanges(y.cup);
+      auto by_column = piece.by_column.Shape(piece.H.cols());
+      piece.compliance.GapChanges(y.cup, by_column);
+      of_group.noalias() += piece.H * by_column;
     }
   }
-  if (!plain_) changes += h_ * J_ * y.bodies;
-  return changes;
+  if (!plain_) changes->noalias() += h_ * J_ * y.bodies;
 }
 
 void ConstraintOperator::AddForces(const VectorXd& lambda, SystemVector* y) const {
@@ -254,10 +279,15 @@ void ConstraintOperator::AddForces(const VectorXd& lambda, SystemVector* y) cons
     if (plain_) {
       piece.compliance.AddForces(of_group, &y->cup);
     } else {
-      piece.compliance.AddForces(piece.H.transpose() * of_group, &y->cup);
+      auto by_column = piece.by_column.Shape(piece.H.cols());
+      by_column.noalias() = piece.H.transpose() * of_group;
+      piece.compliance.AddForces(by_column, &y->cup);
     }
   }
-  if (!plain_) y->bodies += BodyVelocities(h_ * J_.transpose() * lambda);
+  for (std::size_t body = 0; body < bodies_.size() && !plain_; ++body) {
+    y->bodies.segment<6>(6 * static_cast<Index>(body)) +=
+        bodies_[body].M_inverse * ImpulseOn(body, lambda);
+  }
 }
 
 void ConstraintOperator::AddImpulses(const VectorXd& lambda, SystemVector* b) const {
@@ -267,10 +297,14 @@ void ConstraintOperator::AddImpulses(const VectorXd& lambda, SystemVector* b) co
     if (plain_) {
       piece.compliance.AddImpulses(of_group, &b->cup);
     } else {
-      piece.compliance.AddImpulses(piece.H.transpose() * of_group, &b->cup);
+      auto by_column = piece.by_column.Shape(piece.H.cols());
+      by_column.noalias() = piece.H.transpose() * of_group;
+      piece.compliance.AddImpulses(by_column, &b->cup);
     }
   }
-  if (!plain_) b->bodies += h_ * J_.transpose() * lambda;
+  for (std::size_t body = 0; body < bodies_.size() && !plain_; ++body) {
+    b->bodies.segment<6>(6 * static_cast<Index>(body)) += ImpulseOn(body, lambda);
+  }
 }
 
 }  // namespace vacuum_gripper_sim

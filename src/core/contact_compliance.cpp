@@ -19,14 +19,19 @@ double ContactCompliance::Diagonal(Index row) const {
   return coupled() ? own + U.row(row).squaredNorm() : own;
 }
 
-Eigen::VectorXd ContactCompliance::Times(const Eigen::VectorXd& lambda) const {
-  Eigen::VectorXd product(num_rows());
+void ContactCompliance::AddTimes(double factor, const Eigen::VectorXd& lambda,
+                                 Eigen::VectorXd* gaps) const {
   for (const Group& group : groups) {
-    product.segment(group.first, group.size()).noalias() =
-        group.C * lambda.segment(group.first, group.size());
+    gaps->segment(group.first, group.size()).noalias() +=
+        factor * group.C * lambda.segment(group.first, group.size());
   }
-  if (coupled()) product.noalias() += U * (U.transpose() * lambda).eval();
-  return product;
+  constexpr Index kWaysOfABody = 6;
+  for (Index first = 0; first < U.cols(); first += kWaysOfABody) {
+    const auto U_body = U.middleCols(first, std::min(kWaysOfABody, U.cols() - first));
+    Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kWaysOfABody, 1> moved(U_body.cols());
+    moved.noalias() = factor * U_body.transpose() * lambda;
+    gaps->noalias() += U_body * moved;
+  }
 }
 
 }  // namespace vacuum_gripper_sim

@@ -126,7 +126,7 @@ void ContactStage::FindEnd(const SystemVector& dv, TrialEnd* end) {
   end->dV = dv.bodies;
   end->surfaces = &world_->surfaces();
   if (world_->num_bodies() > 0) {
-    surfaces_end_ = world_->SurfacesAfter(dv.bodies, h_);
+    world_->SurfacesAfter(dv.bodies, h_, &surfaces_end_);
     end->surfaces = &surfaces_end_;
   }
 }
@@ -200,20 +200,20 @@ void ContactStage::SetForces(const VectorXd& lambda) {
 /// Adds to y_, on entry that of the impulse, that of the forces' changes.
 void ContactStage::SolveCandidates(ContactSolution* solution, StepTimings* timings) {
   const Stopwatch stopwatch(&timings->solve);
-  VectorXd delta = operator_.GapChanges(y_);
+  operator_.GapChanges(y_, &delta_);
   for (std::size_t i = 0; i < candidates_.size(); ++i) {
     const Contact& contact = candidates_[i].contact;
     const ContactRows& rows = operator_.rows()[i];
-    delta(rows.normal) += contact.gap;
+    delta_(rows.normal) += contact.gap;
     if (!rows.has_tangents()) continue;
-    delta.segment<2>(rows.tangent()) +=
+    delta_.segment<2>(rows.tangent()) +=
         ConstraintOperator::Axes(contact).rightCols<2>().transpose() * contact.slip_W;
   }
   Stack(&Candidate::force, &lambda_);
   Stack(&Candidate::applied, &applied_);
-  if (!applied_.isZero(0.0)) delta -= operator_.W().Times(applied_);
+  if (!applied_.isZero(0.0)) operator_.W().AddTimes(-1.0, applied_, &delta_);
   const McpStatistics statistics =
-      SolveContactGroups(operator_.W(), delta, operator_.rows(), parameters_, &lambda_);
+      contact_solver_.Solve(operator_.W(), delta_, operator_.rows(), parameters_, &lambda_);
   solution->statistics.iterations += statistics.iterations;
   solution->statistics.residual = statistics.residual;
   solution->statistics.converged = statistics.converged;
@@ -241,7 +241,7 @@ bool ContactStage::Refine(ContactSolution* solution) {
 
 bool ContactStage::Solve(const Eigen::Matrix3Xd& load, ContactSolution* solution,
                          StepTimings* timings) {
-  pressure_on_ = PressureOnObjects(load, x0_, finder_, *world_);
+  PressureOnObjects(load, x0_, finder_, *world_, &pressure_on_);
   system_->GatherFree(load, &impulse_.cup);
   impulse_.cup = b_ + h_ * impulse_.cup;
   impulse_.bodies = b_bodies_;
@@ -284,18 +284,23 @@ void ContactStage::Start(ContactSolution* solution, StepTimings* timings) {
     FindEnd(solution->dv, &end_);
     MeasureCandidates([&](std::uint64_t key) { return finder_.Ahead(key, end_); });
   }
-  y_.cup = solver_->factorization().Eliminate(with_forces_.cup);
-  y_.bodies = operator_.BodyVelocities(with_forces_.bodies);
+  solver_->factorization().Eliminate(with_forces_.cup, &y_.cup);
+  operator_.BodyVelocities(with_forces_.bodies, &y_.bodies);
 }
 
 /// @returns false if the factorisation is too old for this.
 bool ContactStage::SolveWithFactorization(ContactSolution* solution, StepTimings* timings) {
   Start(solution, timings);
   for (int pass = 0; pass < kMaxPasses; ++pass) {
+    if (pass > 0) {
+      UpdateOperator(timings);
+      y_ = none_;
+    }
     SolveCandidates(solution, timings);
     {
       const Stopwatch stopwatch(&timings->correction);
-      solution->dv.cup += solver_->factorization().BackSubstitute(y_.cup);
+      solver_->factorization().BackSubstitute(y_.cup, &dv_of_pass_);
+      solution->dv.cup += dv_of_pass_;
       solution->dv.bodies += y_.bodies;
       if (!solver_->current() && (pass == kMaxStalePasses || !Refine(solution))) {
         return false;
@@ -322,8 +327,6 @@ bool ContactStage::SolveWithFactorization(ContactSolution* solution, StepTimings
     MeasureCandidates([&](std::uint64_t key) { return finder_.At(key, end_); });
     for (Candidate& candidate : candidates_) candidate.applied = candidate.force;
     if (passed) AddCandidates(selected_);
-    UpdateOperator(timings);
-    y_ = none_;
   }
   last_motion_ = solution->dv;
   return true;

@@ -1,6 +1,6 @@
 #include "vacuum_gripper_sim/core/delassus_operator.h"
 
-#include <utility>
+#include <algorithm>
 
 namespace vacuum_gripper_sim {
 
@@ -10,37 +10,43 @@ void DelassusOperator::Reset(const SparseCholesky& factorization, double h) {
   factorization_ = &factorization;
   h_ = h;
   H_rows_.clear();
-  batches_.clear();
-  W_.resize(0, 0);
+  num_batches_ = 0;
 }
 
 void DelassusOperator::Append(const std::vector<NodeColumn>& H_rows) {
   if (H_rows.empty()) return;
-  EliminatedColumns Y_new = factorization_->EliminateColumns(H_rows);
-  const Index num_old = W_.rows();
+  if (num_batches_ == batches_.size()) batches_.emplace_back();
+  EliminatedColumns& Y_new = batches_[num_batches_];
+  factorization_->EliminateColumns(H_rows, &Y_new);
+  const Index num_old = num_contacts();
   const Index num_new = Y_new.num_columns();
-  W_.conservativeResize(num_old + num_new, num_old + num_new);
-  Index row = 0;
-  for (const EliminatedColumns& Y : batches_) {
-    const Index num_rows = Y.num_columns();
-    W_.block(row, num_old, num_rows, num_new) = h_ * h_ * Y.TransposeTimes(Y_new);
-    W_.block(num_old, row, num_new, num_rows) =
-        W_.block(row, num_old, num_rows, num_new).transpose();
-    row += num_rows;
+  if (const Index size = num_old + num_new; size > W_.rows()) {
+    const Index with_room = std::max(size, W_.rows() + W_.rows() / 2);
+    W_.conservativeResize(with_room, with_room);
   }
-  W_.bottomRightCorner(num_new, num_new) = h_ * h_ * Y_new.Gram();
-  batches_.push_back(std::move(Y_new));
+  Index row = 0;
+  for (std::size_t i = 0; i < num_batches_; ++i) {
+    auto beside = W_.block(row, num_old, batches_[i].num_columns(), num_new);
+    batches_[i].TransposeTimes(Y_new, beside);
+    beside *= h_ * h_;
+    W_.block(num_old, row, num_new, beside.rows()) = beside.transpose();
+    row += beside.rows();
+  }
+  auto own = W_.block(num_old, num_old, num_new, num_new);
+  Y_new.Gram(own);
+  own *= h_ * h_;
+  ++num_batches_;
   H_rows_.insert(H_rows_.end(), H_rows.begin(), H_rows.end());
 }
 
-Eigen::VectorXd DelassusOperator::GapChanges(const Eigen::VectorXd& y) const {
-  Eigen::VectorXd changes(num_contacts());
+void DelassusOperator::GapChanges(const Eigen::VectorXd& y,
+                                  Eigen::Ref<Eigen::VectorXd> changes) const {
   Index row = 0;
-  for (const EliminatedColumns& Y : batches_) {
-    changes.segment(row, Y.num_columns()) = h_ * Y.TransposeTimes(y);
-    row += Y.num_columns();
+  for (std::size_t i = 0; i < num_batches_; ++i) {
+    batches_[i].TransposeTimes(y, changes.segment(row, batches_[i].num_columns()));
+    row += batches_[i].num_columns();
   }
-  return changes;
+  changes *= h_;
 }
 
 void DelassusOperator::AddImpulses(const Eigen::Ref<const Eigen::VectorXd>& lambda,
@@ -54,9 +60,9 @@ void DelassusOperator::AddImpulses(const Eigen::Ref<const Eigen::VectorXd>& lamb
 void DelassusOperator::AddForces(const Eigen::Ref<const Eigen::VectorXd>& lambda,
                                  Eigen::VectorXd* y) const {
   Index row = 0;
-  for (const EliminatedColumns& Y : batches_) {
-    Y.AddTimes(h_ * lambda.segment(row, Y.num_columns()), y);
-    row += Y.num_columns();
+  for (std::size_t i = 0; i < num_batches_; ++i) {
+    batches_[i].AddTimes(h_, lambda.segment(row, batches_[i].num_columns()), y);
+    row += batches_[i].num_columns();
   }
 }
 

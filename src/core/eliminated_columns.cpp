@@ -9,33 +9,31 @@ using Eigen::Index;
 
 namespace {
 
-template <typename Values>
-using ScalarOf = typename std::decay_t<Values>::value_type;
+template <typename Numbers>
+using ScalarOf = typename std::decay_t<decltype(Numbers::values)>::value_type;
 
-/// Blocks in double precision, one after the other in the same memory.
-class WideBlock {
- public:
-  explicit WideBlock(std::size_t capacity) : memory_(capacity) {}
+/// A part of a block in double precision.
+template <typename Part>
+Eigen::Map<Eigen::MatrixXd> Widened(const Part& part, MatrixMemory<double>* memory) {
+  Eigen::Map<Eigen::MatrixXd> wide = memory->Shape(part.rows(), part.cols());
+  wide = part.template cast<double>();
+  return wide;
+}
 
-  template <typename Block>
-  Eigen::Map<const Eigen::MatrixXd> operator()(const Block& block) {
-    Eigen::Map<Eigen::MatrixXd>(memory_.data(), block.rows(), block.cols()) =
-        block.template cast<double>();
-    return {memory_.data(), block.rows(), block.cols()};
+/// Calls f(first, count) on parts of a block's rows, of which Eigen's products keep their copies on
+/// the stack. @param num_columns Of the larger factor.
+template <typename Function>
+void ForParts(Index num_rows, Index num_columns, const Function& f) {
+  constexpr Index kLargestCopy = EIGEN_STACK_ALLOCATION_LIMIT / sizeof(double);
+  const Index most = std::max(Index{1}, kLargestCopy / num_columns);
+  const Index num_parts = (num_rows + most - 1) / most;
+  for (Index part = 0; part < num_parts; ++part) {
+    const Index first = part * num_rows / num_parts;
+    f(first, (part + 1) * num_rows / num_parts - first);
   }
-
- private:
-  std::vector<double> memory_;
-};
+}
 
 }  // namespace
-
-std::size_t EliminatedColumns::LargestBlock() const {
-  Index largest = 0;
-  for (const Block& block : blocks_)
-    largest = std::max(largest, block.num_rows * block.num_columns);
-  return static_cast<std::size_t>(largest);
-}
 
 Index EliminatedColumns::MostRows() const {
   Index most = 0;
@@ -43,92 +41,105 @@ Index EliminatedColumns::MostRows() const {
   return most;
 }
 
-Eigen::VectorXd EliminatedColumns::TransposeTimes(const Eigen::VectorXd& y) const {
-  return std::visit(
-      [&](const auto& values) -> Eigen::VectorXd {
-        using Vector = Eigen::Matrix<ScalarOf<decltype(values)>, Eigen::Dynamic, 1>;
-        Vector sorted = Vector::Zero(num_columns());
-        Vector work(MostRows());
+void EliminatedColumns::TransposeTimes(const Eigen::VectorXd& y,
+                                       Eigen::Ref<Eigen::VectorXd> product) const {
+  std::visit(
+      [&](const auto& numbers) {
+        using Scalar = ScalarOf<std::decay_t<decltype(numbers)>>;
+        auto sorted = numbers.sorted.Shape(num_columns());
+        auto work = numbers.rows.Shape(MostRows());
+        sorted.setZero();
         for (const Block& block : blocks_) {
           auto rows = work.head(block.num_rows);
-          rows = y.segment(block.row, block.num_rows).template cast<typename Vector::Scalar>();
-          sorted.segment(block.column, block.num_columns).noalias() += Values(values, block) * rows;
+          rows = y.segment(block.row, block.num_rows).template cast<Scalar>();
+          sorted.segment(block.column, block.num_columns).noalias() +=
+              Values(numbers.values, block) * rows;
         }
-        Eigen::VectorXd result(num_columns());
-        for (Index k = 0; k < result.size(); ++k) {
-          result(order_[static_cast<std::size_t>(k)]) = sorted(k);
+        for (Index k = 0; k < product.size(); ++k) {
+          product(order_[static_cast<std::size_t>(k)]) = sorted(k);
         }
-        return result;
       },
-      values_);
+      numbers_);
 }
 
-void EliminatedColumns::AddTimes(const Eigen::VectorXd& x, Eigen::VectorXd* y) const {
+void EliminatedColumns::AddTimes(double factor, const Eigen::Ref<const Eigen::VectorXd>& x,
+                                 Eigen::VectorXd* y) const {
   std::visit(
-      [&](const auto& values) {
-        using Vector = Eigen::Matrix<ScalarOf<decltype(values)>, Eigen::Dynamic, 1>;
-        Vector sorted(num_columns());
+      [&](const auto& numbers) {
+        using Scalar = ScalarOf<std::decay_t<decltype(numbers)>>;
+        auto sorted = numbers.sorted.Shape(num_columns());
         for (Index k = 0; k < sorted.size(); ++k) {
-          sorted(k) = static_cast<typename Vector::Scalar>(x(order_[static_cast<std::size_t>(k)]));
+          sorted(k) = static_cast<Scalar>(factor * x(order_[static_cast<std::size_t>(k)]));
         }
-        Vector work(MostRows());
+        auto work = numbers.rows.Shape(MostRows());
         for (const Block& block : blocks_) {
           auto rows = work.head(block.num_rows);
-          rows.noalias() =
-              Values(values, block).transpose() * sorted.segment(block.column, block.num_columns);
+          rows.noalias() = Values(numbers.values, block).transpose() *
+                           sorted.segment(block.column, block.num_columns);
           y->segment(block.row, block.num_rows) += rows.template cast<double>();
         }
       },
-      values_);
+      numbers_);
 }
 
 /// In double precision whatever Y's: contacts at one node differ by less than single rounding.
-Eigen::MatrixXd EliminatedColumns::Gram() const {
-  Eigen::MatrixXd sorted = Eigen::MatrixXd::Zero(num_columns(), num_columns());
-  WideBlock wide(LargestBlock());
+void EliminatedColumns::Gram(Eigen::Ref<Eigen::MatrixXd> gram) const {
+  Eigen::Map<Eigen::MatrixXd> sorted = sorted_.Shape(num_columns(), num_columns());
+  sorted.setZero();
   std::visit(
-      [&](const auto& values) {
+      [&](const auto& numbers) {
         for (const Block& block : blocks_) {
-          sorted.block(block.column, block.column, block.num_columns, block.num_columns)
-              .selfadjointView<Eigen::Lower>()
-              .rankUpdate(wide(Values(values, block)));
+          const auto values = Values(numbers.values, block);
+          auto target =
+              sorted.block(block.column, block.column, block.num_columns, block.num_columns);
+          ForParts(block.num_rows, block.num_columns, [&](Index first, Index count) {
+            target.template selfadjointView<Eigen::Lower>().rankUpdate(
+                Widened(values.middleCols(first, count), &wide_));
+          });
         }
       },
-      values_);
+      numbers_);
   sorted.triangularView<Eigen::StrictlyUpper>() = sorted.transpose();
-  return InGivenOrder(sorted, *this);
+  PutInGivenOrder(sorted, *this, gram);
 }
 
-Eigen::MatrixXd EliminatedColumns::TransposeTimes(const EliminatedColumns& other) const {
-  Eigen::MatrixXd sorted = Eigen::MatrixXd::Zero(num_columns(), other.num_columns());
-  WideBlock wide(LargestBlock()), their_wide(other.LargestBlock());
+void EliminatedColumns::TransposeTimes(const EliminatedColumns& other,
+                                       Eigen::Ref<Eigen::MatrixXd> product) const {
+  Eigen::Map<Eigen::MatrixXd> sorted = sorted_.Shape(num_columns(), other.num_columns());
+  sorted.setZero();
   std::visit(
-      [&](const auto& values) {
-        const auto& their_values = std::get<std::decay_t<decltype(values)>>(other.values_);
+      [&](const auto& numbers) {
+        const auto& their_numbers = std::get<std::decay_t<decltype(numbers)>>(other.numbers_);
         auto theirs = other.blocks_.begin();
         for (const Block& ours : blocks_) {
           while (theirs != other.blocks_.end() && theirs->row < ours.row) ++theirs;
           if (theirs == other.blocks_.end()) break;
           if (theirs->row != ours.row) continue;
-          sorted.block(ours.column, theirs->column, ours.num_columns, theirs->num_columns)
-              .noalias() +=
-              wide(Values(values, ours)) * their_wide(Values(their_values, *theirs)).transpose();
+          const auto values = Values(numbers.values, ours);
+          const auto their_values = Values(their_numbers.values, *theirs);
+          auto target =
+              sorted.block(ours.column, theirs->column, ours.num_columns, theirs->num_columns);
+          ForParts(ours.num_rows, std::max(ours.num_columns, theirs->num_columns),
+                   [&](Index first, Index count) {
+                     target.noalias() +=
+                         Widened(values.middleCols(first, count), &wide_) *
+                         Widened(their_values.middleCols(first, count), &their_wide_).transpose();
+                   });
         }
       },
-      values_);
-  return InGivenOrder(sorted, other);
+      numbers_);
+  PutInGivenOrder(sorted, other, product);
 }
 
-Eigen::MatrixXd EliminatedColumns::InGivenOrder(const Eigen::MatrixXd& sorted,
-                                                const EliminatedColumns& other) const {
-  Eigen::MatrixXd result(sorted.rows(), sorted.cols());
+void EliminatedColumns::PutInGivenOrder(const Eigen::Ref<const Eigen::MatrixXd>& sorted,
+                                        const EliminatedColumns& other,
+                                        Eigen::Ref<Eigen::MatrixXd> product) const {
   for (Index j = 0; j < sorted.cols(); ++j) {
     const int column = other.order_[static_cast<std::size_t>(j)];
     for (Index i = 0; i < sorted.rows(); ++i) {
-      result(order_[static_cast<std::size_t>(i)], column) = sorted(i, j);
+      product(order_[static_cast<std::size_t>(i)], column) = sorted(i, j);
     }
   }
-  return result;
 }
 
 }  // namespace vacuum_gripper_sim

@@ -19,8 +19,11 @@ constexpr double kFoldMargin = 1e-3;
 /// Bound on how far any node moved against any other one. [m]
 double RelativeMotion(const Eigen::Matrix3Xd& x, const Eigen::Matrix3Xd& x_before) {
   if (x.cols() != x_before.cols()) return std::numeric_limits<double>::infinity();
-  const Eigen::Matrix3Xd way = x - x_before;
-  return (way.rowwise().maxCoeff() - way.rowwise().minCoeff()).norm();
+  Eigen::AlignedBox3d ways;
+  for (Eigen::Index i = 0; i < x.cols(); ++i) {
+    ways.extend(Eigen::Vector3d(x.col(i) - x_before.col(i)));
+  }
+  return ways.diagonal().norm();
 }
 
 auto FindPlace(const std::vector<FaceContacts::Pair>& pairs, std::uint32_t id) {
@@ -75,7 +78,7 @@ void FaceContacts::FindFolds(const Eigen::Matrix3Xd& x_W) {
       near_folds_.push_back(fold.node);
     }
   }
-  folds_ = self_contact_.Find(faces_, x_W, kFoldReach, near_folds_);
+  self_contact_.Find(faces_, x_W, kFoldReach, near_folds_, &folds_);
 }
 
 bool FaceContacts::SeesFoldOf(int node) const {

@@ -53,13 +53,6 @@ struct SubStep {
   }
 };
 
-/// Of the cups' rows: dp_k = shift_k + slope_k dp_m.
-struct EliminatedCups {
-  explicit EliminatedCups(std::size_t n) : shift(n), slope(n) {}
-  std::vector<double> shift;  // Pa
-  std::vector<double> slope;
-};
-
 /// Newton's method on all pressures at once. Each time the manifold's turns back, its steps are
 /// bounded to half the last one: at kinks, as a regulator's flow has, they would go back and forth
 /// for ever. @returns whether it converged.
@@ -195,15 +188,16 @@ void GasNetwork::Solve(const GasState& start, const std::vector<GasCup>& cups,
                ambient_pressure_,
                check_valves_work,
                h / sub_steps};
-  EliminatedCups eliminated(n);
-  std::vector<double> before = pressure;
+  eliminated_.shift.resize(n);
+  eliminated_.slope.resize(n);
+  pressure_before_ = pressure;
   double p_m_before = p_m;
   for (int i = 1; i <= sub_steps; ++i) {
     step.progress = static_cast<double>(i) / sub_steps;
     step.time = h * step.progress;
     Extrapolate(&p_m, &p_m_before);
-    for (std::size_t k = 0; k < n; ++k) Extrapolate(&pressure[k], &before[k]);
-    if (!SolveByNewton(step, &eliminated, &p_m, &pressure)) SolveNested(step, &p_m, &pressure);
+    for (std::size_t k = 0; k < n; ++k) Extrapolate(&pressure[k], &pressure_before_[k]);
+    if (!SolveByNewton(step, &eliminated_, &p_m, &pressure)) SolveNested(step, &p_m, &pressure);
 
     const double source_flow = source(p_m, step.time);
     solution->source_flow += source_flow / sub_steps;

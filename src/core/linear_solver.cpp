@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "vacuum_gripper_sim/core/background_factorization.h"
-#include "vacuum_gripper_sim/core/linearized_contacts.h"
 #include "vacuum_gripper_sim/core/spread_factorization.h"
 
 namespace vacuum_gripper_sim {
@@ -17,38 +16,6 @@ using Eigen::VectorXd;
 
 /// What taking a finished factorisation costs, in CG iterations: a new W.
 constexpr int kTakingCost = 3;
-
-/// The preconditioner of LinearSolver::Refine().
-class HeldPreconditioner {
- public:
-  HeldPreconditioner(const SparseCholesky& factorization, const ConstraintOperator& constraints,
-                     const std::vector<Index>& held)
-      : factorization_(&factorization),
-        constraints_(&constraints),
-        any_held_(!held.empty()),
-        held_(constraints.W(), held, {}) {}
-
-  bool usable() const { return held_.usable(); }
-
-  /// @param[in,out] r Loses the part that held contacts take. @param[in,out] lambda Gains mu.
-  /// @returns z, which moves no held row.
-  SystemVector Solve(SystemVector* r, VectorXd* lambda) const {
-    SystemVector y{factorization_->Eliminate(r->cup), constraints_->BodyVelocities(r->bodies)};
-    if (any_held_) {
-      const VectorXd mu = held_.Forces(constraints_->GapChanges(y));
-      constraints_->AddForces(mu, &y);
-      constraints_->AddImpulses(mu, r);
-      *lambda += mu;
-    }
-    return {factorization_->BackSubstitute(y.cup), std::move(y.bodies)};
-  }
-
- private:
-  const SparseCholesky* factorization_;
-  const ConstraintOperator* constraints_;
-  bool any_held_;
-  LinearizedContacts held_;
-};
 
 }  // namespace
 
@@ -150,35 +117,52 @@ bool LinearSolver::FactorizeWith(Precision precision) {
 
 void LinearSolver::Start(const ConstraintOperator& constraints, SystemVector* dv, SystemVector* b) {
   Ap_.cup = system_->Multiply(dv->cup);
-  Ap_.bodies = constraints.BodyImpulses(dv->bodies);
+  constraints.BodyImpulses(dv->bodies, &Ap_.bodies);
   const double energy = dv->dot(Ap_);
   const double multiple = energy > 0.0 ? dv->dot(*b) / energy : 0.0;
   *dv *= multiple;
   b->Add(-multiple, Ap_);
 }
 
+/// z_ becomes what of r_ the factorisation makes and moves no held row. r_ loses the part that held
+/// contacts take, and lambda gains it.
+void LinearSolver::Precondition(const ConstraintOperator& constraints, bool any_held,
+                                VectorXd* lambda) {
+  factorization_.Eliminate(r_.cup, &y_.cup);
+  constraints.BodyVelocities(r_.bodies, &y_.bodies);
+  if (any_held) {
+    constraints.GapChanges(y_, &gap_changes_);
+    held_.Forces(gap_changes_, &mu_);
+    constraints.AddForces(mu_, &y_);
+    constraints.AddImpulses(mu_, &r_);
+    *lambda += mu_;
+  }
+  factorization_.BackSubstitute(y_.cup, &z_.cup);
+  z_.bodies = y_.bodies;
+}
+
 bool LinearSolver::Refine(const SystemVector& b, const ConstraintOperator& constraints,
                           const std::vector<Index>& held, SystemVector* dv, VectorXd* lambda) {
   const double bound = parameters_.tolerance * std::max(b.cup.norm(), system_->ImpulseScale());
   r_.cup = b.cup - system_->Multiply(dv->cup);
-  r_.bodies = b.bodies - constraints.BodyImpulses(dv->bodies);
+  constraints.BodyImpulses(dv->bodies, &r_.bodies);
+  r_.bodies = b.bodies - r_.bodies;
   constraints.AddImpulses(*lambda, &r_);
   if (r_.norm() <= bound) return true;
 
-  const HeldPreconditioner preconditioner(factorization_, constraints, held);
-  if (!preconditioner.usable()) return false;
+  if (!held_.Compute(constraints.W(), held, {})) return false;
   p_.SetZero(b.cup.size(), b.bodies.size());
   double rz = 1.0;
   const double start = r_.norm();
   for (int i = 0; !Hopeless(i, start, r_.norm(), bound); ++i) {
     ++iterations_;
-    const SystemVector z = preconditioner.Solve(&r_, lambda);
+    Precondition(constraints, !held.empty(), lambda);
     if (r_.norm() <= bound) return true;
-    const double rz_before = std::exchange(rz, r_.dot(z));
+    const double rz_before = std::exchange(rz, r_.dot(z_));
     p_ *= rz / rz_before;
-    p_.Add(1.0, z);
+    p_.Add(1.0, z_);
     Ap_.cup = system_->Multiply(p_.cup);
-    Ap_.bodies = constraints.BodyImpulses(p_.bodies);
+    constraints.BodyImpulses(p_.bodies, &Ap_.bodies);
     const double pAp = p_.dot(Ap_);
     if (!(pAp > 0.0)) return false;  // A is not positive definite
     dv->Add(rz / pAp, p_);

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cstddef>
 
-#include "vacuum_gripper_sim/core/mcp_solver.h"
-
 namespace vacuum_gripper_sim {
 namespace {
 
@@ -17,31 +15,36 @@ constexpr double kWorthRefining = 1e-8;
 using Eigen::Index;
 using Eigen::Matrix2d;
 using Eigen::MatrixXd;
+using Eigen::Vector2d;
 using Eigen::VectorXd;
 
-LinearizedContacts::LinearizedContacts(const ContactCompliance& W, const std::vector<Index>& held,
-                                       const std::vector<SlidingContact>& sliding)
-    : W_(&W), groups_(W.groups.size()) {
+bool LinearizedContacts::Compute(const ContactCompliance& W, const std::vector<Index>& held,
+                                 const std::vector<SlidingContact>& sliding) {
+  W_ = &W;
+  groups_.resize(W.groups.size());
   const auto group_of = [&](Index row) -> Group& {
     return groups_[static_cast<std::size_t>(&W.GroupOf(row) - W.groups.data())];
   };
-  for (std::size_t g = 0; g < groups_.size(); ++g) groups_[g].own = &W.groups[g];
+  for (std::size_t g = 0; g < groups_.size(); ++g) {
+    groups_[g].own = &W.groups[g];
+    groups_[g].held.clear();
+    groups_[g].sliding.clear();
+  }
   for (const Index row : held) group_of(row).held.push_back(row);
   for (const SlidingContact& contact : sliding) group_of(contact.normal).sliding.push_back(contact);
-  groups_.erase(std::remove_if(groups_.begin(), groups_.end(),
-                               [](const Group& group) { return group.held.empty(); }),
-                groups_.end());
-  for (Group& group : groups_) usable_ = usable_ && Factorize(&group);
-  if (!usable_ || !W.coupled()) return;
+  if (!std::all_of(groups_.begin(), groups_.end(), [](Group& group) { return Factorize(&group); }))
+    return false;
+  if (!W.coupled()) return true;
   inverse_QU_ = W.U;
   ApplyQ(&inverse_QU_);
   SolveGroups(&inverse_QU_);
-  MatrixXd capacitance = W.U.transpose() * inverse_QU_;
-  capacitance.diagonal().array() += 1.0;
-  capacitance_.compute(capacitance);
+  UT_inverse_QU_.noalias() = W.U.transpose() * inverse_QU_;
+  UT_inverse_QU_.diagonal().array() += 1.0;
+  capacitance_.compute(UT_inverse_QU_);
+  return true;
 }
 
-bool LinearizedContacts::Factorize(Group* group) const {
+bool LinearizedContacts::Factorize(Group* group) {
   const std::vector<Index>& held = group->held;
   const std::vector<SlidingContact>& sliding = group->sliding;
   const Index first = group->own->first;
@@ -49,18 +52,15 @@ bool LinearizedContacts::Factorize(Group* group) const {
   const auto num_held = static_cast<Index>(held.size());
   const auto num_sliding = 2 * static_cast<Index>(sliding.size());
 
-  MatrixXd C_EE(num_held, num_held);
-  for (Index j = 0; j < num_held; ++j) {
-    const Index column = held[static_cast<std::size_t>(j)] - first;
-    for (Index i = j; i < num_held; ++i) {
-      C_EE(i, j) = C(held[static_cast<std::size_t>(i)] - first, column);
-    }
-  }
-  group->C_EE = FactorOfContacts(C_EE, &group->share);
-  if (group->C_EE.info() != Eigen::Success) return false;
+  if (!group->C_EE.Compute(C, held, first)) return false;
   if (num_sliding == 0) return true;
 
-  MatrixXd C_ES(num_held, num_sliding), B_SE(num_sliding, num_held), B_SS(num_sliding, num_sliding);
+  MatrixXd& C_ES = group->inverse_C_ES;
+  MatrixXd& B_SE = group->B_SE;
+  MatrixXd& B_SS = group->B_SS;
+  C_ES.resize(num_held, num_sliding);
+  B_SE.resize(num_sliding, num_held);
+  B_SS.resize(num_sliding, num_sliding);
   for (Index s = 0; s < num_sliding; s += 2) {
     const SlidingContact& contact = sliding[static_cast<std::size_t>(s / 2)];
     const Index t = contact.tangent - first;
@@ -79,10 +79,9 @@ bool LinearizedContacts::Factorize(Group* group) const {
     }
     B_SS.block<2, 2>(s, s) += contact.scale * (Matrix2d::Identity() - contact.theta_P);
   }
-  group->inverse_C_ES = group->C_EE.solve(C_ES);
-  B_SS.noalias() -= B_SE * group->inverse_C_ES;
+  group->C_EE.SolveInPlace(&C_ES);
+  B_SS.noalias() -= B_SE * C_ES;
   group->complement.compute(B_SS);
-  group->B_SE = std::move(B_SE);
   return true;
 }
 
@@ -91,85 +90,94 @@ template <typename Matrix>
 void LinearizedContacts::ApplyQ(Matrix* values) const {
   for (const Group& group : groups_) {
     for (const SlidingContact& contact : group.sliding) {
-      auto rows = values->template middleRows<2>(contact.tangent);
-      rows = (contact.theta_P * rows).eval();
+      for (Index column = 0; column < values->cols(); ++column) {
+        const Vector2d z = values->col(column).template segment<2>(contact.tangent);
+        values->col(column).template segment<2>(contact.tangent) = contact.theta_P * z;
+      }
     }
   }
 }
 
 /// (S + Q C)^-1 of the columns; 0 in rows that are not in K.
 template <typename Matrix>
-void LinearizedContacts::SolveGroups(Matrix* values) const {
+void LinearizedContacts::SolveGroups(Matrix* values) {
   using ColumnMajor = Eigen::Matrix<double, Eigen::Dynamic, Matrix::ColsAtCompileTime>;
-  const Matrix right = *values;
-  values->setZero();
   for (const Group& group : groups_) {
-    ColumnMajor forces_E(static_cast<Index>(group.held.size()), right.cols());
-    for (Index i = 0; i < forces_E.rows(); ++i) {
-      forces_E.row(i) = right.row(group.held[static_cast<std::size_t>(i)]);
+    const auto num_held = static_cast<Index>(group.held.size());
+    const auto num_sliding = 2 * static_cast<Index>(group.sliding.size());
+    auto forces_E = forces_E_.Shape<ColumnMajor>(num_held, values->cols());
+    auto right_S = right_S_.Shape<ColumnMajor>(num_sliding, values->cols());
+    for (Index i = 0; i < num_held; ++i) {
+      forces_E.row(i) = values->row(group.held[static_cast<std::size_t>(i)]);
     }
-    group.C_EE.solveInPlace(forces_E);
-    if (!group.sliding.empty()) {
-      ColumnMajor right_S = -group.B_SE * forces_E;
-      for (Index s = 0; s < right_S.rows(); s += 2) {
-        right_S.middleRows(s, 2) +=
-            right.middleRows(group.sliding[static_cast<std::size_t>(s / 2)].tangent, 2);
-      }
-      const ColumnMajor forces_S = group.complement.solve(right_S);
+    for (Index s = 0; s < num_sliding; s += 2) {
+      right_S.middleRows(s, 2) =
+          values->middleRows(group.sliding[static_cast<std::size_t>(s / 2)].tangent, 2);
+    }
+    values->middleRows(group.own->first, group.own->size()).setZero();
+    if (num_held == 0) continue;
+
+    group.C_EE.SolveInPlace(&forces_E);
+    if (num_sliding > 0) {
+      right_S.noalias() -= group.B_SE * forces_E;
+      auto forces_S = forces_S_.Shape<ColumnMajor>(num_sliding, values->cols());
+      forces_S = group.complement.solve(right_S);
       forces_E.noalias() -= group.inverse_C_ES * forces_S;
-      for (Index s = 0; s < forces_S.rows(); s += 2) {
+      for (Index s = 0; s < num_sliding; s += 2) {
         values->middleRows(group.sliding[static_cast<std::size_t>(s / 2)].tangent, 2) =
             forces_S.middleRows(s, 2);
       }
     }
-    for (Index i = 0; i < forces_E.rows(); ++i) {
+    for (Index i = 0; i < num_held; ++i) {
       values->row(group.held[static_cast<std::size_t>(i)]) = forces_E.row(i);
     }
   }
 }
 
-/// K^-1 right.
-VectorXd LinearizedContacts::Solve(VectorXd right) const {
-  SolveGroups(&right);
-  if (W_->coupled()) {
-    const VectorXd moved = capacitance_.solve(W_->U.transpose() * right);
-    right.noalias() -= inverse_QU_ * moved;
-  }
-  return right;
+/// K^-1 of the values.
+void LinearizedContacts::Solve(VectorXd* values) {
+  SolveGroups(values);
+  if (!W_->coupled()) return;
+  UT_forces_.noalias() = W_->U.transpose() * *values;
+  moved_ = capacitance_.solve(UT_forces_);
+  values->noalias() -= inverse_QU_ * moved_;
 }
 
 /// right - K lambda, K with the larger diagonal; whatever in rows that are not in K. Without that,
 /// refining would blow up forces that W does not determine.
-VectorXd LinearizedContacts::Residual(const VectorXd& right, const VectorXd& lambda) const {
-  VectorXd product = W_->Times(lambda);
-  ApplyQ(&product);
+void LinearizedContacts::FindResidual(const VectorXd& lambda) {
+  residual_.setZero(lambda.size());
+  W_->AddTimes(-1.0, lambda, &residual_);
+  ApplyQ(&residual_);
   for (const Group& group : groups_) {
     for (const Index row : group.held) {
       const Index place = row - group.own->first;
-      product(row) += group.share * group.own->C(place, place) * lambda(row);
+      residual_(row) -= group.C_EE.share() * group.own->C(place, place) * lambda(row);
     }
     for (const SlidingContact& contact : group.sliding) {
-      const Eigen::Vector2d force = lambda.segment<2>(contact.tangent);
-      product.segment<2>(contact.tangent) +=
+      const Vector2d force = lambda.segment<2>(contact.tangent);
+      residual_.segment<2>(contact.tangent) -=
           contact.scale *
           (force - contact.theta_P * force - contact.friction * lambda(contact.normal) * contact.d);
     }
   }
-  return right - product;
+  residual_ += right_;
 }
 
-VectorXd LinearizedContacts::Forces(const VectorXd& delta) const {
-  VectorXd right = -delta;
-  ApplyQ(&right);
-  VectorXd lambda = Solve(right);
+void LinearizedContacts::Forces(const VectorXd& delta, VectorXd* lambda) {
+  right_ = -delta;
+  ApplyQ(&right_);
+  *lambda = right_;
+  Solve(lambda);
   // Rows that only the bodies tell apart, as of a node between two of them, lose digits to the
   // nearly singular C; each time this finds some again.
   for (int i = 0; W_->coupled() && i < kMaxRefinements; ++i) {
-    const VectorXd correction = Solve(Residual(right, lambda));
-    lambda += correction;
-    if (correction.norm() <= kWorthRefining * lambda.norm()) break;
+    FindResidual(*lambda);
+    VectorXd& correction = residual_;
+    Solve(&correction);
+    *lambda += correction;
+    if (correction.norm() <= kWorthRefining * lambda->norm()) break;
   }
-  return lambda;
 }
 
 }  // namespace vacuum_gripper_sim

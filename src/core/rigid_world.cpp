@@ -93,15 +93,14 @@ Eigen::Matrix<double, 6, 6> RigidWorld::Mass(int body) const {
   return M;
 }
 
-Eigen::VectorXd RigidWorld::FreeImpulse(const Vector3d& gravity, double h) const {
-  Eigen::VectorXd b(6 * num_bodies());
+void RigidWorld::FreeImpulse(const Vector3d& gravity, double h, Eigen::VectorXd* b) const {
+  b->resize(6 * num_bodies());
   for (int body = 0; body < num_bodies(); ++body) {
     const Eigen::Matrix<double, 6, 6> M = Mass(body);
     const Vector3d omega = velocity(body).tail<3>();
-    b.segment<3>(6 * body) = h * M(0, 0) * gravity;
-    b.segment<3>(6 * body + 3) = -h * omega.cross(M.bottomRightCorner<3, 3>() * omega);
+    b->segment<3>(6 * body) = h * M(0, 0) * gravity;
+    b->segment<3>(6 * body + 3) = -h * omega.cross(M.bottomRightCorner<3, 3>() * omega);
   }
-  return b;
 }
 
 Isometry3d RigidWorld::PoseAfter(int object, const Eigen::VectorXd& dV, double h) const {
@@ -116,12 +115,12 @@ Isometry3d RigidWorld::PoseAfter(int object, const Eigen::VectorXd& dV, double h
   return X_WO;
 }
 
-std::vector<RigidSurface> RigidWorld::SurfacesAfter(const Eigen::VectorXd& dV, double h) const {
-  std::vector<RigidSurface> surfaces = surfaces_;
+void RigidWorld::SurfacesAfter(const Eigen::VectorXd& dV, double h,
+                               std::vector<RigidSurface>* surfaces) const {
+  *surfaces = surfaces_;
   for (const Body& body : bodies_) {
-    Place(body.object, PoseAfter(body.object, dV, h), &surfaces);
+    Place(body.object, PoseAfter(body.object, dV, h), surfaces);
   }
-  return surfaces;
 }
 
 Vector3d RigidWorld::Displacement(int object, const Vector3d& p_W, const Eigen::VectorXd& dV,

@@ -18,26 +18,6 @@ constexpr double kTouching = 1e-8;
 
 std::size_t Index(int i) { return static_cast<std::size_t>(i); }
 
-/// Outward normals of the boundary.
-struct Normals {
-  Eigen::Matrix3Xd of_triangles;  ///< Unit, 3 by #triangles.
-  Eigen::Matrix3Xd of_nodes;      ///< Means weighted by area, unit, 3 by #nodes; 0 inside.
-};
-
-Normals NormalsOf(const Eigen::Matrix3Xi& triangles, const Eigen::Matrix3Xd& x) {
-  Normals normals{Eigen::Matrix3Xd(3, triangles.cols()), Eigen::Matrix3Xd::Zero(3, x.cols())};
-  for (Eigen::Index t = 0; t < triangles.cols(); ++t) {
-    const Eigen::Vector3d a = x.col(triangles(0, t));
-    const Eigen::Vector3d b = x.col(triangles(1, t));
-    const Eigen::Vector3d c = x.col(triangles(2, t));
-    const Eigen::Vector3d area = (b - a).cross(c - a);
-    normals.of_triangles.col(t) = area.normalized();
-    for (int k = 0; k < 3; ++k) normals.of_nodes.col(triangles(k, t)) += area;
-  }
-  normals.of_nodes.colwise().normalize();
-  return normals;
-}
-
 FoldContact MakeContact(int node, const CupFacePoint& point, const Eigen::Vector3d& face_normal) {
   const bool touching = std::abs(point.distance) < kTouching;
   return {node,          point.face,     point.nodes,
@@ -88,14 +68,14 @@ SelfContact::SelfContact(const TetMesh& mesh, const CupFaces& faces) {
   neighbours_ = TrianglesAround(triangles, mesh.num_nodes(), nodes_,
                                 mesh.quadratic() ? 2 * kNeighborhood : kNeighborhood);
 
-  const Normals normals = NormalsOf(triangles, mesh.nodes);
+  FindNormals(triangles, mesh.nodes);
   half_walls_.assign(Index(mesh.num_nodes()), 0.0);
   for (const int node : nodes_) {
     // The thickness: to the nearest face behind the node that looks the other way.
     const Eigen::Vector3d p = mesh.nodes.col(node);
-    const Eigen::Vector3d outward = normals.of_nodes.col(node);
+    const Eigen::Vector3d outward = normals_.of_nodes.col(node);
     const auto behind = [&](int t) {
-      return normals.of_triangles.col(t).dot(outward) < kFacing &&
+      return normals_.of_triangles.col(t).dot(outward) < kFacing &&
              outward.dot(mesh.nodes.col(triangles(0, t)) - p) < 0.0;
     };
     const std::optional<CupFacePoint> other =
@@ -104,32 +84,45 @@ SelfContact::SelfContact(const TetMesh& mesh, const CupFaces& faces) {
   }
 }
 
+void SelfContact::FindNormals(const Eigen::Matrix3Xi& triangles, const Eigen::Matrix3Xd& x) const {
+  normals_.of_triangles.resize(3, triangles.cols());
+  normals_.of_nodes.setZero(3, x.cols());
+  for (Eigen::Index t = 0; t < triangles.cols(); ++t) {
+    const Eigen::Vector3d a = x.col(triangles(0, t));
+    const Eigen::Vector3d b = x.col(triangles(1, t));
+    const Eigen::Vector3d c = x.col(triangles(2, t));
+    const Eigen::Vector3d area = (b - a).cross(c - a);
+    normals_.of_triangles.col(t) = area.normalized();
+    for (int k = 0; k < 3; ++k) normals_.of_nodes.col(triangles(k, t)) += area;
+  }
+  for (Eigen::Index i = 0; i < x.cols(); ++i) normals_.of_nodes.col(i).normalize();
+}
+
 bool SelfContact::MayTouch(std::size_t index, int triangle) const {
   return !std::binary_search(neighbours_[index].begin(), neighbours_[index].end(), triangle);
 }
 
-std::vector<FoldContact> SelfContact::Find(const CupFaces& faces, const Eigen::Matrix3Xd& x_W,
-                                           double reach, const std::vector<int>& nodes) const {
-  if (nodes.empty()) return {};
+void SelfContact::Find(const CupFaces& faces, const Eigen::Matrix3Xd& x_W, double reach,
+                       const std::vector<int>& nodes, std::vector<FoldContact>* contacts) const {
+  contacts->clear();
+  if (nodes.empty()) return;
   const Eigen::Matrix3Xi& triangles = faces.triangles();
-  const Normals normals = NormalsOf(triangles, x_W);
-  std::vector<FoldContact> contacts;
+  FindNormals(triangles, x_W);
   for (const int node : nodes) {
     const auto i = static_cast<std::size_t>(std::lower_bound(nodes_.begin(), nodes_.end(), node) -
                                             nodes_.begin());
     const Eigen::Vector3d p = x_W.col(node);
-    const Eigen::Vector3d outward = normals.of_nodes.col(node);
+    const Eigen::Vector3d outward = normals_.of_nodes.col(node);
     const double depth = std::min(reach, half_walls_[Index(node)]);
     const auto wanted = [&](int t) {
-      const auto normal = normals.of_triangles.col(t);
+      const auto normal = normals_.of_triangles.col(t);
       return normal.dot(outward) < kFacing && normal.dot(p - x_W.col(triangles(0, t))) > -depth &&
              MayTouch(i, t);
     };
     const std::optional<CupFacePoint> nearest = faces.Nearest(p, reach, wanted);
     if (!nearest || nearest->distance < -depth) continue;
-    contacts.push_back(MakeContact(node, *nearest, normals.of_triangles.col(nearest->face)));
+    contacts->push_back(MakeContact(node, *nearest, normals_.of_triangles.col(nearest->face)));
   }
-  return contacts;
 }
 
 FoldContact SelfContact::At(const FoldContact& contact, const CupFaces& faces,

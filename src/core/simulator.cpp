@@ -108,11 +108,13 @@ class Simulator::Implementation {
   State last_good_;  // that an undone step goes back to
 
   // Of the last step.
-  Eigen::Matrix3Xd dv_c_;  // of the clamped nodes [m/s]
+  Eigen::Matrix3Xd dv_c_;     // of the clamped nodes [m/s]
+  Eigen::VectorXd b_bodies_;  // of the free bodies' motion [N s], [N m s]
   SuctionSolution solution_;
-  Eigen::Matrix3Xd dv_W_;          // of all nodes [m/s]
-  Eigen::Matrix3Xd area_vectors_;  // of the cavity points at its end [m^2]
-  bool free_ones_placed_{false};   // since the last good step
+  Eigen::Matrix3Xd dv_W_;             // of all nodes [m/s]
+  Eigen::Matrix3Xd area_vectors_;     // of the cavity points at its end [m^2]
+  std::vector<ObjectLoad> on_mount_;  // of each cup, about the mount's origin
+  bool free_ones_placed_{false};      // since the last good step
 };
 
 void Simulator::Implementation::SetObjects(std::vector<RigidObject> objects) {
@@ -273,8 +275,8 @@ bool Simulator::Implementation::Advance(const Command& command) {
 
   // 2) to 4) Classification, constraint directions, W and the mixed complementarity problem.
   const ContactSolution& contact = solution_.contact;
-  stage_.Begin(world_, state_.x_W, state_.v_W, b, dv_c_, world_.FreeImpulse(parameters_.gravity, h),
-               h);
+  world_.FreeImpulse(parameters_.gravity, h, &b_bodies_);
+  stage_.Begin(world_, state_.x_W, state_.v_W, b, dv_c_, b_bodies_, h);
   if (!SolveSuction(command)) {
     return fail(StepOutcome::kNonFinite, "A is not positive definite");
   }
@@ -322,29 +324,27 @@ bool Simulator::Implementation::SolveSuction(const Command& command) {
 /// ImplicitEuler.
 void Simulator::Implementation::ReportWrenches() {
   const Eigen::Matrix3Xd& reaction = system_.ClampedReaction(solution_.contact.dv.cup, dv_c_);
-  const auto num_cups = cups_.mounts.size();
-  std::vector<Eigen::Vector3d> force_W(num_cups, Eigen::Vector3d::Zero());
-  std::vector<Eigen::Vector3d> torque_W(num_cups, Eigen::Vector3d::Zero());  // about the mount
+  on_mount_.assign(cups_.mounts.size(), ObjectLoad());
   const Eigen::Vector3d origin_W = result_.X_WM.translation();
   for (Eigen::Index i = 0; i < reaction.cols(); ++i) {
     const int node = system_.clamped_nodes()[static_cast<std::size_t>(i)];
     // Pressure loads clamped rows too, and so do contacts with faces that have clamped corners.
     const Eigen::Vector3d on_mount_W =
         solution_.load.col(node) + solution_.contact.forces_W.col(node) - reaction.col(i);
-    const auto cup = static_cast<std::size_t>(cups_.CupOfNode(node));
-    force_W[cup] += on_mount_W;
-    torque_W[cup] += (state_.x_W.col(node) - origin_W).cross(on_mount_W);
+    ObjectLoad& of_cup = on_mount_[static_cast<std::size_t>(cups_.CupOfNode(node))];
+    of_cup.force_W += on_mount_W;
+    of_cup.torque_W += (state_.x_W.col(node) - origin_W).cross(on_mount_W);
   }
   Eigen::Vector3d sum_W = Eigen::Vector3d::Zero(), torque_sum_W = Eigen::Vector3d::Zero();
-  for (std::size_t cup = 0; cup < num_cups; ++cup) {
+  for (std::size_t cup = 0; cup < on_mount_.size(); ++cup) {
+    const auto& [force_W, torque_W] = on_mount_[cup];
     CupResult& result = result_.cups[cup];
     result.X_WC = result_.X_WM * cups_.mounts[cup].X_MC;
     const Eigen::Matrix3d R_CW = result.X_WC.linear().transpose();
-    result.force_C = R_CW * force_W[cup];
-    result.torque_C =
-        R_CW * (torque_W[cup] - (result.X_WC.translation() - origin_W).cross(force_W[cup]));
-    sum_W += force_W[cup];
-    torque_sum_W += torque_W[cup];
+    result.force_C = R_CW * force_W;
+    result.torque_C = R_CW * (torque_W - (result.X_WC.translation() - origin_W).cross(force_W));
+    sum_W += force_W;
+    torque_sum_W += torque_W;
   }
   const Eigen::Matrix3d R_MW = result_.X_WM.linear().transpose();
   result_.force_M = R_MW * sum_W;

@@ -10,8 +10,7 @@ namespace vacuum_gripper_sim {
 namespace {
 
 using Eigen::Index;
-template <typename Scalar>
-using Vector = Eigen::Matrix<Scalar, Eigen::Dynamic, 1>;
+using Eigen::VectorXd;
 template <typename Scalar>
 using ConstPanel = Eigen::Map<const Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>>;
 
@@ -73,16 +72,24 @@ SparseCholesky::Progress SparseCholesky::ContinueTo(double share,
   return std::visit(go_on, numbers_);
 }
 
-Eigen::VectorXd SparseCholesky::Eliminate(const Eigen::VectorXd& b) const {
-  return std::visit([&](const auto& numbers) { return Eliminate(numbers, b); }, numbers_);
+VectorXd SparseCholesky::Solve(const VectorXd& b) const {
+  VectorXd y, x;
+  Eliminate(b, &y);
+  BackSubstitute(y, &x);
+  return x;
 }
 
-Eigen::VectorXd SparseCholesky::BackSubstitute(const Eigen::VectorXd& y) const {
-  return std::visit([&](const auto& numbers) { return BackSubstitute(numbers, y); }, numbers_);
+void SparseCholesky::Eliminate(const VectorXd& b, VectorXd* y) const {
+  std::visit([&](const auto& numbers) { Eliminate(numbers, b, y); }, numbers_);
 }
 
-EliminatedColumns SparseCholesky::EliminateColumns(const std::vector<NodeColumn>& B) const {
-  return std::visit([&](const auto& numbers) { return EliminateColumns(numbers, B); }, numbers_);
+void SparseCholesky::BackSubstitute(const VectorXd& y, VectorXd* x) const {
+  std::visit([&](const auto& numbers) { BackSubstitute(numbers, y, x); }, numbers_);
+}
+
+void SparseCholesky::EliminateColumns(const std::vector<NodeColumn>& B,
+                                      EliminatedColumns* Y) const {
+  std::visit([&](const auto& numbers) { EliminateColumns(numbers, B, Y); }, numbers_);
 }
 
 /// @returns false if A is not positive definite.
@@ -114,14 +121,14 @@ bool SparseCholesky::EliminateFront(const Supernode& front, const Eigen::SparseM
 }
 
 template <typename Scalar>
-Eigen::VectorXd SparseCholesky::Eliminate(const Numbers<Scalar>& numbers,
-                                          const Eigen::VectorXd& b) const {
-  Vector<Scalar> y(size_);
+void SparseCholesky::Eliminate(const Numbers<Scalar>& numbers, const VectorXd& b,
+                               VectorXd* eliminated) const {
+  auto y = numbers.solution.Shape(size_);
   for (std::size_t k = 0; k < node_at_.size(); ++k) {
     y.template segment<3>(3 * static_cast<Index>(k)) =
         b.segment<3>(3 * node_at_[k]).template cast<Scalar>();
   }
-  Vector<Scalar> work(largest_front_);
+  auto work = numbers.below.Shape(largest_front_);
   for (const Supernode& front : supernodes_) {
     const ConstPanel<Scalar> F(numbers.factor.data() + front.offset, 3 * front.num_rows(),
                                3 * front.width);
@@ -135,14 +142,15 @@ Eigen::VectorXd SparseCholesky::Eliminate(const Numbers<Scalar>& numbers,
           below.template segment<3>(3 * r);
     }
   }
-  return y.template cast<double>();
+  *eliminated = y.template cast<double>();
 }
 
 template <typename Scalar>
-Eigen::VectorXd SparseCholesky::BackSubstitute(const Numbers<Scalar>& numbers,
-                                               const Eigen::VectorXd& y_given) const {
-  Vector<Scalar> y = y_given.template cast<Scalar>();
-  Vector<Scalar> work(largest_front_);
+void SparseCholesky::BackSubstitute(const Numbers<Scalar>& numbers, const VectorXd& eliminated,
+                                    VectorXd* x) const {
+  auto y = numbers.solution.Shape(size_);
+  y = eliminated.template cast<Scalar>();
+  auto work = numbers.below.Shape(largest_front_);
   for (auto front = supernodes_.rbegin(); front != supernodes_.rend(); ++front) {
     const ConstPanel<Scalar> F(numbers.factor.data() + front->offset, 3 * front->num_rows(),
                                3 * front->width);
@@ -157,91 +165,90 @@ Eigen::VectorXd SparseCholesky::BackSubstitute(const Numbers<Scalar>& numbers,
     }
     F.topRows(F.cols()).template triangularView<Eigen::Lower>().transpose().solveInPlace(own);
   }
-  Eigen::VectorXd x(size_);
+  x->resize(size_);
   for (std::size_t k = 0; k < node_at_.size(); ++k) {
-    x.segment<3>(3 * node_at_[k]) =
+    x->segment<3>(3 * node_at_[k]) =
         y.template segment<3>(3 * static_cast<Index>(k)).template cast<double>();
   }
-  return x;
 }
 
 /// Sorts the columns, gives a block to every front that one reaches, and fills in B.
-/// @param[out] block_of By supernode; -1: not reached.
+/// @returns the values of Y.
 template <typename Scalar>
-EliminatedColumns SparseCholesky::LayOutColumns(const std::vector<NodeColumn>& B,
-                                                std::vector<int>* block_of) const {
+std::vector<Scalar>& SparseCholesky::LayOutColumns(const std::vector<NodeColumn>& B,
+                                                   EliminatedColumns* Y) const {
   const auto start = [&](int c) {
     return position_[static_cast<std::size_t>(B[static_cast<std::size_t>(c)].node)];
   };
-  EliminatedColumns Y;
-  Y.order_.resize(B.size());
-  std::iota(Y.order_.begin(), Y.order_.end(), 0);
-  std::stable_sort(Y.order_.begin(), Y.order_.end(),
-                   [&](int a, int b) { return start(a) < start(b); });
+  Y->order_.resize(B.size());
+  std::iota(Y->order_.begin(), Y->order_.end(), 0);
+  std::sort(Y->order_.begin(), Y->order_.end(),
+            [&](int a, int b) { return std::pair(start(a), a) < std::pair(start(b), b); });
 
-  block_of->assign(supernodes_.size(), -1);
-  Y.blocks_.reserve(supernodes_.size());
+  block_of_.assign(supernodes_.size(), -1);
+  Y->blocks_.clear();
+  Y->blocks_.reserve(supernodes_.size());
   std::size_t offset = 0;
   std::size_t end = 0;
   for (std::size_t s = 0; s < supernodes_.size(); ++s) {
     const Supernode& front = supernodes_[s];
     auto begin = static_cast<Index>(end);
     for (const int c : front.children) {
-      const int block = (*block_of)[static_cast<std::size_t>(c)];
-      if (block >= 0) begin = std::min(begin, Y.blocks_[static_cast<std::size_t>(block)].column);
+      const int block = block_of_[static_cast<std::size_t>(c)];
+      if (block >= 0) begin = std::min(begin, Y->blocks_[static_cast<std::size_t>(block)].column);
     }
-    while (end < B.size() && start(Y.order_[end]) < front.first + front.width) ++end;
+    while (end < B.size() && start(Y->order_[end]) < front.first + front.width) ++end;
     const Index num_columns = static_cast<Index>(end) - begin;
     if (num_columns == 0) continue;
-    (*block_of)[s] = static_cast<int>(Y.blocks_.size());
-    Y.blocks_.push_back({3 * front.first, 3 * front.width, begin, num_columns, offset});
+    block_of_[s] = static_cast<int>(Y->blocks_.size());
+    Y->blocks_.push_back({3 * front.first, 3 * front.width, begin, num_columns, offset});
     offset += static_cast<std::size_t>(3 * front.width * num_columns);
   }
-  auto& values = Y.values_.emplace<std::vector<Scalar>>(offset, Scalar(0));
+  using ColumnNumbers = EliminatedColumns::Numbers<Scalar>;
+  if (!std::holds_alternative<ColumnNumbers>(Y->numbers_)) Y->numbers_ = ColumnNumbers();
+  std::vector<Scalar>& values = std::get<ColumnNumbers>(Y->numbers_).values;
+  values.assign(offset, Scalar(0));
   for (std::size_t k = 0; k < B.size(); ++k) {
-    const int position = start(Y.order_[k]);
+    const int position = start(Y->order_[k]);
     const int s = supernode_of_[static_cast<std::size_t>(position)];
     const auto& block =
-        Y.blocks_[static_cast<std::size_t>((*block_of)[static_cast<std::size_t>(s)])];
-    Y.Values(&values, block)
+        Y->blocks_[static_cast<std::size_t>(block_of_[static_cast<std::size_t>(s)])];
+    Y->Values(&values, block)
         .row(static_cast<Index>(k) - block.column)
         .template segment<3>(3 * position - block.row) =
-        B[static_cast<std::size_t>(Y.order_[k])].value.transpose().template cast<Scalar>();
+        B[static_cast<std::size_t>(Y->order_[k])].value.transpose().template cast<Scalar>();
   }
-  return Y;
+  return values;
 }
 
 template <typename Scalar>
-EliminatedColumns SparseCholesky::EliminateColumns(const Numbers<Scalar>& numbers,
-                                                   const std::vector<NodeColumn>& B) const {
-  std::vector<int> block_of;
-  EliminatedColumns Y = LayOutColumns<Scalar>(B, &block_of);
-  auto& values = std::get<std::vector<Scalar>>(Y.values_);
-  std::vector<Scalar> work(static_cast<std::size_t>(largest_front_) * B.size());
+void SparseCholesky::EliminateColumns(const Numbers<Scalar>& numbers,
+                                      const std::vector<NodeColumn>& B,
+                                      EliminatedColumns* Y) const {
+  std::vector<Scalar>& values = LayOutColumns<Scalar>(B, Y);
   for (std::size_t s = 0; s < supernodes_.size(); ++s) {
-    if (block_of[s] < 0) continue;
+    if (block_of_[s] < 0) continue;
     const Supernode& front = supernodes_[s];
-    const EliminatedColumns::Block& block = Y.blocks_[static_cast<std::size_t>(block_of[s])];
+    const EliminatedColumns::Block& block = Y->blocks_[static_cast<std::size_t>(block_of_[s])];
     const Scalar* const panel = numbers.factor.data() + front.offset;
     const Index rows = 3 * front.num_rows();
     const Index own = 3 * front.width;
     Scalar* const Y_own = values.data() + block.offset;
     SolveOnTheRight(block.num_columns, own, panel, rows, Y_own);
     if (rows == own) continue;
+    auto update = numbers.below.Shape(block.num_columns, rows - own);
     NegativeProduct(block.num_columns, rows - own, own, Y_own, block.num_columns, panel + own, rows,
-                    work.data());
-    const ConstPanel<Scalar> update(work.data(), block.num_columns, rows - own);
+                    update.data());
     for (int r = 0; r < front.num_below(); ++r) {
       const int position = front.rows[static_cast<std::size_t>(front.width + r)];
       const int above = supernode_of_[static_cast<std::size_t>(position)];
       const auto& target =
-          Y.blocks_[static_cast<std::size_t>(block_of[static_cast<std::size_t>(above)])];
-      Y.Values(&values, target)
+          Y->blocks_[static_cast<std::size_t>(block_of_[static_cast<std::size_t>(above)])];
+      Y->Values(&values, target)
           .block(block.column - target.column, 3 * position - target.row, block.num_columns, 3) +=
           update.middleCols(3 * r, 3);
     }
   }
-  return Y;
 }
 
 }  // namespace vacuum_gripper_sim

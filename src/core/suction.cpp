@@ -39,21 +39,23 @@ bool Suction::ReleaseOpen(const Classification& classification, std::vector<int>
 /// Solves with the pressures of the cups that have a seal; without any, that is the stage (1).
 bool Suction::HoldSeals(ContactStage* stage, GripState* state, SuctionSolution* solution,
                         StepTimings* timings) {
-  std::vector<int> holding;
+  holding_.clear();
   for (std::size_t cup = 0; cup < pressures_.size(); ++cup) {
-    if (pressures_[cup] != 0.0) holding.push_back(static_cast<int>(cup));
+    if (pressures_[cup] != 0.0) holding_.push_back(static_cast<int>(cup));
   }
   do {
-    std::vector<std::vector<bool>> seen;
-    SetWet(holding, state->classification);
+    SetWet(holding_, state->classification);
     for (int round = 1;; ++round) {
       if (!SolveOnce(stage, solution, timings)) return false;
-      if (round == seal_.max_rounds || holding.empty()) break;
-      seen.push_back(wet_);
-      SetWet(holding, solution->classification);
-      if (std::find(seen.begin(), seen.end(), wet_) != seen.end()) break;  // fixed point or cycle
+      if (round == seal_.max_rounds || holding_.empty()) break;
+      const auto num_seen = static_cast<std::size_t>(round);
+      if (seen_.size() < num_seen) seen_.emplace_back();
+      seen_[num_seen - 1] = wet_;
+      SetWet(holding_, solution->classification);
+      const auto end = seen_.begin() + round;
+      if (std::find(seen_.begin(), end, wet_) != end) break;  // fixed point or cycle
     }
-  } while (ReleaseOpen(solution->classification, &holding));
+  } while (ReleaseOpen(solution->classification, &holding_));
   for (std::size_t cup = 0; cup < pressures_.size(); ++cup) {
     CavityState& cavity = state->cups[cup];
     if (cavity.sealed && pressures_[cup] == 0.0) {
@@ -65,35 +67,34 @@ bool Suction::HoldSeals(ContactStage* stage, GripState* state, SuctionSolution* 
   return true;
 }
 
-/// @param pressure That a cup with a new seal is to have. [Pa]
-bool Suction::TryToSeal(const std::vector<double>& pressure, ContactStage* stage, GripState* state,
-                        SuctionSolution* solution, StepTimings* timings) {
-  std::vector<int> trying;
-  for (std::size_t cup = 0; cup < pressure.size(); ++cup) {
-    if (pressure[cup] == 0.0) continue;
+bool Suction::TryToSeal(ContactStage* stage, GripState* state, SuctionSolution* solution,
+                        StepTimings* timings) {
+  trying_.clear();
+  for (std::size_t cup = 0; cup < of_new_seals_.size(); ++cup) {
+    if (of_new_seals_[cup] == 0.0) continue;
     if (solution->classification.bottleneck_gaps[cup] >= *seal_.close_gap) continue;
-    trying.push_back(static_cast<int>(cup));
+    trying_.push_back(static_cast<int>(cup));
   }
-  SetWet(trying, solution->classification);
-  for (int i = 1; i <= seal_.ramp_increments && !trying.empty(); ++i) {  // (2)
-    for (const int cup : trying) {
+  SetWet(trying_, solution->classification);
+  for (int i = 1; i <= seal_.ramp_increments && !trying_.empty(); ++i) {  // (2)
+    for (const int cup : trying_) {
       const auto k = static_cast<std::size_t>(cup);
-      pressures_[k] = pressure[k] * i / seal_.ramp_increments;
+      pressures_[k] = of_new_seals_[k] * i / seal_.ramp_increments;
     }
     if (!SolveOnce(stage, solution, timings)) return false;
-    SetWet(trying, solution->classification);
-    if (ReleaseOpen(solution->classification, &trying) && trying.empty()) {
+    SetWet(trying_, solution->classification);
+    if (ReleaseOpen(solution->classification, &trying_) && trying_.empty()) {
       return SolveOnce(stage, solution, timings);  // suction opens them: no seal yet
     }
   }
-  if (trying.empty()) return true;
-  for (const int cup : trying) {
-    pressures_[static_cast<std::size_t>(cup)] = pressure[static_cast<std::size_t>(cup)];
+  if (trying_.empty()) return true;
+  for (const int cup : trying_) {
+    pressures_[static_cast<std::size_t>(cup)] = of_new_seals_[static_cast<std::size_t>(cup)];
   }
   do {  // (3)
     if (!SolveOnce(stage, solution, timings)) return false;
-  } while (ReleaseOpen(solution->classification, &trying));
-  for (const int cup : trying) {
+  } while (ReleaseOpen(solution->classification, &trying_));
+  for (const int cup : trying_) {
     const auto k = static_cast<std::size_t>(cup);
     state->cups[k].sealed = true;
     state->cups[k].lost = false;
@@ -109,7 +110,7 @@ bool Suction::Solve(const Eigen::Matrix3Xd& x_W, double setpoint, double h, Cont
 
   const double largest_change = regulator_.ramp_rate * h;
   pressures_.assign(state->cups.size(), 0.0);
-  std::vector<double> of_new_seals(state->cups.size(), 0.0);
+  of_new_seals_.assign(state->cups.size(), 0.0);
   for (std::size_t cup = 0; cup < state->cups.size(); ++cup) {
     CavityState& cavity = state->cups[cup];
     const double change = std::clamp(setpoint - cavity.pressure, -largest_change, largest_change);
@@ -118,10 +119,10 @@ bool Suction::Solve(const Eigen::Matrix3Xd& x_W, double setpoint, double h, Cont
                                 ? setpoint
                                 : cavity.pressure + change;
     if (pressure == 0.0) cavity.sealed = false;
-    (cavity.sealed ? pressures_ : of_new_seals)[cup] = pressure;
+    (cavity.sealed ? pressures_ : of_new_seals_)[cup] = pressure;
   }
-  const bool solved = HoldSeals(stage, state, solution, timings) &&
-                      TryToSeal(of_new_seals, stage, state, solution, timings);
+  const bool solved =
+      HoldSeals(stage, state, solution, timings) && TryToSeal(stage, state, solution, timings);
   for (CavityState& cavity : state->cups) {
     if (setpoint == 0.0) cavity.lost = false;  // venting may open the lip: that is no loss
   }

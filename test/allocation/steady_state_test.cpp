@@ -14,48 +14,52 @@ namespace {
 constexpr double kTimeStep = 0.01;    // s
 constexpr double kSuction = -6000.0;  // Pa
 
-/// Allocations of a step, whatever the size of the cup. 38 to 40 are left where a step factorises;
-/// the margin is for other versions of Eigen.
-constexpr long kMost = 42;
-
 struct SteadyCase {
+  std::string name;
   std::string bell;
-  LinearSolverMethod method;
+  SimulatorParameters parameters;
+  std::vector<RigidObject> objects;  // their upper face at z = 0
 };
 
-std::string NameOf(const testing::TestParamInfo<SteadyCase>& info) {
-  const bool direct = info.param.method == LinearSolverMethod::kDirect;
-  return info.param.bell + (direct ? "_direct" : "_conjugate_gradient");
-}
+std::string NameOf(const testing::TestParamInfo<SteadyCase>& info) { return info.param.name; }
 
-class SteadyState : public testing::TestWithParam<SteadyCase> {
+/// A grip that was pressed on and holds.
+class HeldGrip : public testing::TestWithParam<SteadyCase> {
  protected:
-  /// The most allocations that one of `count` steps under a set-point makes.
-  static long MostAllocations(GripCycle* cycle, double setpoint, int count) {
+  void SetUp() override {
+    constexpr double kPressed = kCupLength - 1e-3;  // m
+    cycle_.simulator().SetObjects(GetParam().objects);
+    cycle_.Drive(kPressed, 0.01, 0.0, 0.2);
+    cycle_.Drive(kPressed, 0.01, kSuction, 0.5);
+    ASSERT_EQ(cycle_.result().status, SealStatus::kSealed);
+  }
+
+  /// The most allocations that one of 30 steps makes. @param way Of the mount in each, up. [m]
+  long MostAllocations(double way) {
     long most = 0;
-    for (int i = 0; i < count; ++i) {
+    for (int i = 0; i < 30; ++i) {
+      const double height = cycle_.height() + way;
       const long before = CountAllocations();
-      cycle->Step(setpoint);
+      way == 0.0 ? cycle_.Step(kSuction) : cycle_.Drive(height, 1.0, kSuction);
       most = std::max(most, CountAllocations() - before);
     }
+    EXPECT_TRUE(Holds(cycle_.result()));
+    EXPECT_EQ(cycle_.undone_steps, 0);
+    RecordProperty("most_allocations", std::to_string(most));
     return most;
   }
+
+  GripCycle cycle_{LoadBell(GetParam().bell), GetParam().parameters};
 };
 
-TEST_P(SteadyState, StepsOfAHeldGripAllocateAFewTimesAtMost) {
-  SimulatorParameters parameters = A20(kTimeStep);
-  parameters.linear_solver.method = GetParam().method;
-  GripCycle cycle(LoadBell(GetParam().bell), parameters);
-  constexpr double kPressed = kCupLength - 1e-3;  // m
-  cycle.Drive(kPressed, 0.01, 0.0, 0.2);
-  cycle.Drive(kPressed, 0.01, kSuction, 0.5);
-  ASSERT_EQ(cycle.result().status, SealStatus::kSealed);
+class SteadyState : public HeldGrip {};
+class PulledGrip : public HeldGrip {};
 
-  const long most = MostAllocations(&cycle, kSuction, 30);
-  EXPECT_EQ(cycle.result().status, SealStatus::kSealed);
-  EXPECT_LE(most, kMost);
-  RecordProperty("most_allocations", std::to_string(most));
-}
+TEST_P(SteadyState, StepsAllocateNothing) { EXPECT_EQ(MostAllocations(0.0), 0); }
+
+// When contacts become more or fewer, eight vectors and matrices as long as their rows change their
+// size; a pass or two of a step may bring that.
+TEST_P(PulledGrip, StepsAllocateAFewTimesAtMost) { EXPECT_LE(MostAllocations(1e-5), 30); }
 
 TEST(CountAllocations, SeesNewAndEigen) {
   const long before = CountAllocations();
@@ -65,13 +69,68 @@ TEST(CountAllocations, SeesNewAndEigen) {
   EXPECT_EQ(CountAllocations() - before, 3);
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Cups, SteadyState,
-    testing::Values(SteadyCase{"linear_700", LinearSolverMethod::kDirect},
-                    SteadyCase{"linear_700", LinearSolverMethod::kConjugateGradient},
-                    SteadyCase{"quadratic_700", LinearSolverMethod::kDirect},
-                    SteadyCase{"quadratic_700", LinearSolverMethod::kConjugateGradient}),
-    NameOf);
+SteadyCase Case(const std::string& bell, const std::string& name) {
+  return {bell + "_" + name, bell, A20(kTimeStep), {FixedObject(RigidSurface{"plate", Plane{}})}};
+}
+
+SteadyCase Direct(const std::string& bell) { return Case(bell, "direct"); }
+
+SteadyCase DoublePrecision(const std::string& bell) {
+  SteadyCase result = Case(bell, "double_precision");
+  result.parameters.linear_solver.precision = Precision::kDouble;
+  return result;
+}
+
+SteadyCase ConjugateGradient(const std::string& bell) {
+  SteadyCase result = Case(bell, "conjugate_gradient");
+  result.parameters.linear_solver.method = LinearSolverMethod::kConjugateGradient;
+  return result;
+}
+
+SteadyCase Ejector(const std::string& bell) {
+  SteadyCase result = Case(bell, "ejector");
+  result.parameters.vacuum.source = VacuumSourceType::kEjector;
+  return result;
+}
+
+SteadyCase Friction(const std::string& bell) {
+  SteadyCase result = Case(bell, "friction");
+  result.objects[0].surfaces[0].friction = 0.5;
+  return result;
+}
+
+/// A box that lies on the plate.
+SteadyCase FreeBox(const std::string& bell) {
+  constexpr double kHeight = 0.02;  // m
+  SteadyCase result = Friction(bell);
+  result.name = bell + "_free_box";
+  result.parameters.gravity = {0.0, 0.0, -9.81};
+  result.objects[0].X_WO.translation().z() = -kHeight;
+  RigidObject box = FixedObject(RigidSurface{"box", Box{{0.1, 0.1, kHeight}}});
+  box.X_WO.translation().z() = -0.5 * kHeight;
+  box.surfaces[0].friction = 0.5;
+  box.inertia = RigidInertia();
+  box.inertia->mass = 0.02;
+  box.inertia->about_C_O = 2e-5 * Eigen::Matrix3d::Identity();
+  result.objects.push_back(box);
+  return result;
+}
+
+// Not the asynchronous solver: when its thread allocates for the first time is up to the scheduler.
+const char kLinear[] = "linear_700";
+const char kQuadratic[] = "quadratic_700";
+
+INSTANTIATE_TEST_SUITE_P(Cups, SteadyState,
+                         testing::Values(Direct(kLinear), DoublePrecision(kLinear),
+                                         ConjugateGradient(kLinear), Ejector(kLinear),
+                                         Friction(kLinear), FreeBox(kLinear), Direct(kQuadratic),
+                                         DoublePrecision(kQuadratic), ConjugateGradient(kQuadratic),
+                                         Ejector(kQuadratic)),
+                         NameOf);
+INSTANTIATE_TEST_SUITE_P(Cups, PulledGrip,
+                         testing::Values(Direct(kLinear), ConjugateGradient(kLinear),
+                                         Direct(kQuadratic), ConjugateGradient(kQuadratic)),
+                         NameOf);
 
 }  // namespace
 }  // namespace vacuum_gripper_sim

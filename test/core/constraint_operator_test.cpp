@@ -134,7 +134,9 @@ class ConstraintOperatorTest : public testing::Test {
   MatrixXd W() const {
     MatrixXd W(operator_.num_rows(), operator_.num_rows());
     for (Eigen::Index i = 0; i < W.cols(); ++i) {
-      W.col(i) = operator_.W().Times(VectorXd::Unit(W.cols(), i));
+      VectorXd column = VectorXd::Zero(W.rows());
+      operator_.W().AddTimes(1.0, VectorXd::Unit(W.cols(), i), &column);
+      W.col(i) = column;
       EXPECT_NEAR(operator_.W().Diagonal(i), W(i, i), 1e-12 * W(i, i));
     }
     return W;
@@ -266,13 +268,21 @@ TEST_F(ConstraintOperatorTest, ForcesDoToGapsWhatWSays) {
 
     SystemVector y = none;
     operator_.AddForces(lambda, &y);
-    ExpectNear(y.cup, factorization_.Eliminate(b.cup), 1e-10);
-    ExpectNear(operator_.GapChanges(y), W() * lambda, kClose);
-    stacked << factorization_.BackSubstitute(y.cup), y.bodies;
-    ExpectNear(operator_.GapChanges(y), kTimeStep * J * stacked, 1e-10);
+    SystemVector expected;
+    factorization_.Eliminate(b.cup, &expected.cup);
+    ExpectNear(y.cup, expected.cup, 1e-10);
+    VectorXd changes;
+    operator_.GapChanges(y, &changes);
+    ExpectNear(changes, W() * lambda, kClose);
+    VectorXd dv;
+    factorization_.BackSubstitute(y.cup, &dv);
+    stacked << dv, y.bodies;
+    ExpectNear(changes, kTimeStep * J * stacked, 1e-10);
     if (plain) continue;
-    ExpectNear(y.bodies, operator_.BodyVelocities(b.bodies), 1e-12);
-    ExpectNear(operator_.BodyImpulses(y.bodies), b.bodies, 1e-12);
+    operator_.BodyVelocities(b.bodies, &expected.bodies);
+    ExpectNear(y.bodies, expected.bodies, 1e-12);
+    operator_.BodyImpulses(y.bodies, &expected.bodies);
+    ExpectNear(expected.bodies, b.bodies, 1e-12);
   }
 }
 

@@ -65,7 +65,7 @@ class ContactFinderTest : public testing::Test {
     TrialEnd end;
     end.x_W = mesh_.nodes + way * Eigen::Matrix3Xd::Random(3, mesh_.nodes.cols());
     end.dV = way / kTimeStep * Eigen::VectorXd::Random(12);
-    surfaces_ = world_.SurfacesAfter(end.dV, kTimeStep);
+    world_.SurfacesAfter(end.dV, kTimeStep, &surfaces_);
     end.surfaces = &surfaces_;
     return end;
   }

@@ -64,6 +64,7 @@ class Touching {
     world_.SetObjects({FixedObject(RigidSurface{"plane", Plane{}})});
     constraints_.Reset(solver.factorization(), world_, kTimeStep);
     std::vector<Contact> contacts;
+    constraints_.SetContacts(contacts);
     for (const NodeColumn& row : rows) {
       Contact contact;
       contact.num_nodes = 1;

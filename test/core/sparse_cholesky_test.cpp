@@ -39,6 +39,18 @@ std::vector<NodeColumn> RandomColumns(Eigen::Index num_rows, int num_columns, un
   return columns;
 }
 
+EliminatedColumns Eliminated(const std::vector<NodeColumn>& B, const SparseCholesky& cholesky) {
+  EliminatedColumns Y;
+  cholesky.EliminateColumns(B, &Y);
+  return Y;
+}
+
+Eigen::MatrixXd Gram(const EliminatedColumns& Y) {
+  Eigen::MatrixXd gram(Y.num_columns(), Y.num_columns());
+  Y.Gram(gram);
+  return gram;
+}
+
 TEST(SparseCholesky, SolvesLikeADenseFactorisation) {
   for (const bool quadratic : {false, true}) {
     for (const int cells : {1, 2, 4}) {
@@ -67,14 +79,14 @@ TEST(SparseCholesky, PrecisionIsChosenByFactorisation) {
   const Eigen::VectorXd expected = Dense(A).llt().solve(b);
   const auto columns = RandomColumns(A.rows(), 30, 5);
   ASSERT_TRUE(cholesky.Factorize(A));
-  const Eigen::MatrixXd W = cholesky.EliminateColumns(columns).Gram();
+  const Eigen::MatrixXd W = Gram(Eliminated(columns, cholesky));
   for (const Precision precision : {Precision::kSingle, Precision::kDouble}) {
     ASSERT_TRUE(cholesky.Factorize(A, precision));
     EXPECT_EQ(cholesky.precision(), precision);
     const double share = precision == Precision::kSingle ? 1e-3 : 1e-11;
     const double error = (cholesky.Solve(b) - expected).norm() / expected.norm();
     EXPECT_LT(error, share);
-    const double W_error = (cholesky.EliminateColumns(columns).Gram() - W).norm() / W.norm();
+    const double W_error = (Gram(Eliminated(columns, cholesky)) - W).norm() / W.norm();
     EXPECT_LT(W_error, share);
     EXPECT_EQ(error > 1e-10, precision == Precision::kSingle);
   }
@@ -118,23 +130,30 @@ TEST(SparseCholesky, EliminatedColumnsAreHalfOfTheInverse) {
   const auto second = RandomColumns(A.rows(), 7, 4);
   const Eigen::MatrixXd B = Dense(first, A.rows());
   const Eigen::MatrixXd C = Dense(second, A.rows());
-  const EliminatedColumns Y = cholesky.EliminateColumns(first);
-  const EliminatedColumns Z = cholesky.EliminateColumns(second);
+  const EliminatedColumns Y = Eliminated(first, cholesky);
+  const EliminatedColumns Z = Eliminated(second, cholesky);
 
   const Eigen::MatrixXd gram = B.transpose() * inverse * B;
-  EXPECT_LT((Y.Gram() - gram).norm(), 1e-12 * gram.norm());
-  EXPECT_EQ(Y.Gram(), Y.Gram().transpose());
+  EXPECT_LT((Gram(Y) - gram).norm(), 1e-12 * gram.norm());
+  EXPECT_EQ(Gram(Y), Gram(Y).transpose());
   const Eigen::MatrixXd product = B.transpose() * inverse * C;
-  EXPECT_LT((Y.TransposeTimes(Z) - product).norm(), 1e-12 * product.norm());
+  Eigen::MatrixXd Y_Z(Y.num_columns(), Z.num_columns());
+  Y.TransposeTimes(Z, Y_Z);
+  EXPECT_LT((Y_Z - product).norm(), 1e-12 * product.norm());
 
   const Eigen::VectorXd b = Eigen::VectorXd::LinSpaced(A.cols(), -1.0, 2.0);
   const Eigen::VectorXd seen = B.transpose() * inverse * b;
-  EXPECT_LT((Y.TransposeTimes(cholesky.Eliminate(b)) - seen).norm(), 1e-12 * seen.norm());
+  Eigen::VectorXd y, Y_y(Y.num_columns());
+  cholesky.Eliminate(b, &y);
+  Y.TransposeTimes(y, Y_y);
+  EXPECT_LT((Y_y - seen).norm(), 1e-12 * seen.norm());
   const Eigen::VectorXd x = Eigen::VectorXd::LinSpaced(40, -1.0, 1.0);
-  Eigen::VectorXd y = Eigen::VectorXd::Zero(A.cols());
-  Y.AddTimes(x, &y);
-  const Eigen::VectorXd moved = inverse * B * x;
-  EXPECT_LT((cholesky.BackSubstitute(y) - moved).norm(), 1e-12 * moved.norm());
+  y.setZero();
+  Y.AddTimes(2.0, x, &y);
+  Eigen::VectorXd solved;
+  cholesky.BackSubstitute(y, &solved);
+  const Eigen::VectorXd moved = 2.0 * inverse * B * x;
+  EXPECT_LT((solved - moved).norm(), 1e-12 * moved.norm());
 }
 
 TEST(SparseCholesky, RefusesWhatIsNotPositiveDefinite) {

@@ -3,7 +3,6 @@
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
 #include <cstddef>
-#include <map>
 #include <vector>
 
 #include "vacuum_gripper_sim/core/contact_compliance.h"
@@ -11,6 +10,7 @@
 #include "vacuum_gripper_sim/core/delassus_operator.h"
 #include "vacuum_gripper_sim/core/friction_solver.h"
 #include "vacuum_gripper_sim/core/implicit_euler.h"
+#include "vacuum_gripper_sim/core/matrix_memory.h"
 #include "vacuum_gripper_sim/core/rigid_world.h"
 #include "vacuum_gripper_sim/core/sparse_cholesky.h"
 #include "vacuum_gripper_sim/core/system_vector.h"
@@ -30,13 +30,15 @@ namespace vacuum_gripper_sim {
 
  A contact of one node with a frictionless surface that does not give way needs a single column of
  A^-1 H^T, along its normal. Others take three, along the world's axes, for each of their nodes:
- their directions may then turn, and nodes be shared, without new columns. */
+ their directions may then turn, and nodes be shared, without new columns.
+
+ Products share working memory: one thread at a time. */
 class ConstraintOperator {
  public:
   explicit ConstraintOperator(const ImplicitEuler& system) : system_(&system) {}
 
-  /// Forgets all contacts. @param factorization Of A. @param world Its bodies' masses hold from
-  /// now on. Both must outlive this. @param h Time step. [s]
+  /// Forgets all contacts; W() is only that of the next ones. @param factorization Of A. @param
+  /// world Its bodies' masses hold from now on. Both must outlive this. @param h Time step. [s]
   void Reset(const SparseCholesky& factorization, const RigidWorld& world, double h);
 
   /** Sets the rows. Columns of contacts that were there before, in the same places, stay. */
@@ -46,7 +48,7 @@ class ConstraintOperator {
 
   /// Rows of each contact.
   const std::vector<ContactRows>& rows() const { return rows_; }
-  Eigen::Index num_rows() const { return W_.num_rows(); }
+  Eigen::Index num_rows() const { return num_rows_; }
   /// n, or n, t1, t2 of a contact, a column each, world axes.
   static Eigen::Matrix3d Axes(const Contact& contact);
   /// [m/N]
@@ -54,13 +56,13 @@ class ConstraintOperator {
   /// Are all contacts single normals of nodes on what does not move?
   bool plain() const { return plain_; }
 
-  /// M^-1 b of the bodies. @param b 6 #bodies. [N s], [N m s]
-  Eigen::VectorXd BodyVelocities(const Eigen::VectorXd& b) const;
-  /// M dV of the bodies. @param dV 6 #bodies.
-  Eigen::VectorXd BodyImpulses(const Eigen::VectorXd& dV) const;
-  /// What an impulse does to gaps and slips. [m] @param y L^-1 P b of the cup's, and M^-1 b of the
-  /// bodies'.
-  Eigen::VectorXd GapChanges(const SystemVector& y) const;
+  /// dV = M^-1 b of the bodies. @param b 6 #bodies. [N s], [N m s]
+  void BodyVelocities(const Eigen::VectorXd& b, Eigen::VectorXd* dV) const;
+  /// b = M dV of the bodies. @param dV 6 #bodies.
+  void BodyImpulses(const Eigen::VectorXd& dV, Eigen::VectorXd* b) const;
+  /// What an impulse does to gaps and slips. @param y L^-1 P b of the cup's, and M^-1 b of the
+  /// bodies'. @param[out] changes [m]
+  void GapChanges(const SystemVector& y, Eigen::VectorXd* changes) const;
   /// Adds what the forces do. @param lambda [N] @param[in,out] y As in GapChanges().
   void AddForces(const Eigen::VectorXd& lambda, SystemVector* y) const;
   /// Adds their impulses. @param lambda [N] @param[in,out] b
@@ -83,6 +85,7 @@ class ConstraintOperator {
     std::size_t group{0};  // of W's
     std::vector<Eigen::Triplet<double>> entries;
     Eigen::SparseMatrix<double, Eigen::RowMajor> H;  // #rows of its group by #columns
+    mutable MatrixMemory<double> by_column;          // of products
 
     int next_column() const {
       return compliance.num_contacts() + static_cast<int>(new_columns.size());
@@ -95,10 +98,12 @@ class ConstraintOperator {
   }
   void AddColumns(const std::vector<Contact>& contacts);
   void SetRows(const std::vector<Contact>& contacts);
-  std::vector<std::size_t> FindGroups(const std::vector<Contact>& contacts);
+  void FindGroups(const std::vector<Contact>& contacts);
   void SetH(const std::vector<Contact>& contacts);
   void AddBodyEntries(const Contact& contact, int object, double sign, const ContactRows& rows);
+  static void Compress(Eigen::Index num_rows, Piece* piece);
   void UpdateW();
+  RigidWorld::Vector6d ImpulseOn(std::size_t body, const Eigen::VectorXd& lambda) const;
 
   const ImplicitEuler* system_;
   const SparseCholesky* factorization_{nullptr};
@@ -107,10 +112,12 @@ class ConstraintOperator {
   std::vector<Body> bodies_;
   std::vector<Piece> pieces_;
   std::vector<Column> plain_columns_;  // by contact; those without take their nodes'
-  std::map<int, Column> columns_of_;   // a node's first of three columns
+  std::vector<Column> columns_of_;     // a free node's first of three columns
 
   bool plain_{true};
   std::vector<ContactRows> rows_;
+  std::vector<std::size_t> groups_;  // of W's, by contact
+  Eigen::Index num_rows_{0};
   Eigen::MatrixXd J_;  // #rows by 6 #bodies
   ContactCompliance W_;
   std::size_t between_bodies_{0};  // first of W's groups without a piece

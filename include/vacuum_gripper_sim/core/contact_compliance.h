@@ -33,8 +33,8 @@ struct ContactCompliance {
   const Group& GroupOf(Eigen::Index row) const;
   /// W_ii. [m/N]
   double Diagonal(Eigen::Index row) const;
-  /// W lambda. [m] @param lambda [N]
-  Eigen::VectorXd Times(const Eigen::VectorXd& lambda) const;
+  /// gaps += factor W lambda. @param lambda [N] @param[in,out] gaps [m]
+  void AddTimes(double factor, const Eigen::VectorXd& lambda, Eigen::VectorXd* gaps) const;
 };
 
 }  // namespace vacuum_gripper_sim

@@ -7,6 +7,7 @@
 
 #include "vacuum_gripper_sim/core/constraint_operator.h"
 #include "vacuum_gripper_sim/core/contact_finder.h"
+#include "vacuum_gripper_sim/core/friction_solver.h"
 #include "vacuum_gripper_sim/core/implicit_euler.h"
 #include "vacuum_gripper_sim/core/linear_solver.h"
 #include "vacuum_gripper_sim/core/mcp_solver.h"
@@ -139,6 +140,8 @@ class ContactStage {
   TrialEnd coasting_, end_;                 // without a change of velocity, and of the trial
   // Kept for their memory.
   SystemVector none_, with_forces_;
+  Eigen::VectorXd dv_of_pass_;        // of the cup [m/s]
+  Eigen::VectorXd delta_;             // gaps and slips without further forces [m]
   Eigen::VectorXd lambda_, applied_;  // [N]
   std::vector<Contact> selected_, contacts_;
   std::vector<Eigen::Index> held_;
@@ -150,6 +153,7 @@ class ContactStage {
   std::vector<Candidate> candidates_;
   std::vector<std::uint64_t> candidate_keys_;  // ascending
   ConstraintOperator operator_;                // of the first candidates or of all
+  FrictionSolver contact_solver_;
 
   /// Forces of the last step, by key: the normal one and the others in world axes, as what is
   /// across a normal may change from step to step. [N]

@@ -22,11 +22,13 @@ class DelassusOperator {
   /// @param H_rows Gradients of the gaps of more contacts, by node of the free system. [-]
   void Append(const std::vector<NodeColumn>& H_rows);
 
-  int num_contacts() const { return static_cast<int>(W_.rows()); }
+  int num_contacts() const { return static_cast<int>(H_rows_.size()); }
   /// #contacts square, symmetric. [m/N]
-  const Eigen::MatrixXd& W() const { return W_; }
-  /// h H A^-1 b of an impulse b [N s] given as y = L^-1 P b. [m]
-  Eigen::VectorXd GapChanges(const Eigen::VectorXd& y) const;
+  Eigen::Block<const Eigen::MatrixXd> W() const {
+    return W_.topLeftCorner(num_contacts(), num_contacts());
+  }
+  /// h H A^-1 b of an impulse b [N s] given as y = L^-1 P b. @param[out] changes #contacts. [m]
+  void GapChanges(const Eigen::VectorXd& y, Eigen::Ref<Eigen::VectorXd> changes) const;
   /// b += h H^T lambda. @param lambda Contact forces. [N] @param[in,out] b [N s]
   void AddImpulses(const Eigen::Ref<const Eigen::VectorXd>& lambda, Eigen::VectorXd* b) const;
   /// y += L^-1 P h H^T lambda. @param lambda Contact forces. [N]
@@ -36,8 +38,9 @@ class DelassusOperator {
   const SparseCholesky* factorization_{nullptr};
   double h_{0.0};
   std::vector<NodeColumn> H_rows_;
-  std::vector<EliminatedColumns> batches_;  // Y, in the order of the contacts
-  Eigen::MatrixXd W_;
+  std::vector<EliminatedColumns> batches_;  // Y, in the order of the contacts; the first ones count
+  std::size_t num_batches_{0};
+  Eigen::MatrixXd W_;  // with room for more contacts
 };
 
 }  // namespace vacuum_gripper_sim

@@ -5,6 +5,8 @@
 #include <variant>
 #include <vector>
 
+#include "vacuum_gripper_sim/core/matrix_memory.h"
+
 namespace vacuum_gripper_sim {
 
 /// A sparse column: three entries, at the rows of one node.
@@ -18,19 +20,23 @@ struct NodeColumn {
 
  A column is zero outside the path of its node through the elimination tree. Columns are sorted by
  their node's place in that order; those in the subtree below a front then stand side by side, and
- each front stores its rows of just those. */
+ each front stores its rows of just those.
+
+ Products share working memory: one thread at a time. */
 class EliminatedColumns {
  public:
   int num_columns() const { return static_cast<int>(order_.size()); }
 
-  /// Y^T y. @param y In elimination order, as SparseCholesky::Eliminate() returns it.
-  Eigen::VectorXd TransposeTimes(const Eigen::VectorXd& y) const;
-  /// y += Y x. @param x A value a column.
-  void AddTimes(const Eigen::VectorXd& x, Eigen::VectorXd* y) const;
-  /// Y^T Y, symmetric.
-  Eigen::MatrixXd Gram() const;
-  /// Y^T Z. @param other Z, of the same factorisation.
-  Eigen::MatrixXd TransposeTimes(const EliminatedColumns& other) const;
+  /// Y^T y. @param y In elimination order, as of SparseCholesky::Eliminate(). @param[out] product
+  /// #columns.
+  void TransposeTimes(const Eigen::VectorXd& y, Eigen::Ref<Eigen::VectorXd> product) const;
+  /// y += factor Y x. @param x A value a column.
+  void AddTimes(double factor, const Eigen::Ref<const Eigen::VectorXd>& x,
+                Eigen::VectorXd* y) const;
+  /// Y^T Y, symmetric. @param[out] gram #columns square.
+  void Gram(Eigen::Ref<Eigen::MatrixXd> gram) const;
+  /// Y^T Z. @param other Z, of the same factorisation. @param[out] product #columns by Z's.
+  void TransposeTimes(const EliminatedColumns& other, Eigen::Ref<Eigen::MatrixXd> product) const;
 
  private:
   friend class SparseCholesky;
@@ -52,13 +58,19 @@ class EliminatedColumns {
   static Eigen::Map<Matrix<Scalar>> Values(std::vector<Scalar>* values, const Block& block) {
     return {values->data() + block.offset, block.num_columns, block.num_rows};
   }
-  std::size_t LargestBlock() const;  // entries
-  Eigen::Index MostRows() const;     // of a block
-  Eigen::MatrixXd InGivenOrder(const Eigen::MatrixXd& sorted, const EliminatedColumns& other) const;
+  template <typename Scalar>
+  struct Numbers {
+    std::vector<Scalar> values;
+    mutable MatrixMemory<Scalar> sorted, rows;  // of products
+  };
+  Eigen::Index MostRows() const;  // of a block
+  void PutInGivenOrder(const Eigen::Ref<const Eigen::MatrixXd>& sorted,
+                       const EliminatedColumns& other, Eigen::Ref<Eigen::MatrixXd> product) const;
 
-  std::vector<int> order_;     // the sorted columns' numbers in B
-  std::vector<Block> blocks_;  // rows ascending
-  std::variant<std::vector<double>, std::vector<float>> values_;  // as the factor's
+  std::vector<int> order_;                                   // the sorted columns' numbers in B
+  std::vector<Block> blocks_;                                // rows ascending
+  std::variant<Numbers<double>, Numbers<float>> numbers_;    // as the factor's
+  mutable MatrixMemory<double> sorted_, wide_, their_wide_;  // of products in double precision
 };
 
 }  // namespace vacuum_gripper_sim

@@ -48,6 +48,12 @@ struct GasSolution {
   double source_flow{0.0};        ///< Into the manifold. [Pa m^3/s]
 };
 
+/// Of the cups' rows in Newton's method: dp_k = shift_k + slope_k dp_m.
+struct EliminatedCups {
+  std::vector<double> shift;  ///< [Pa]
+  std::vector<double> slope;  ///< [-]
+};
+
 /** Air in one manifold and the cups at its hoses, isothermal:
 
      d(p_k V_k)/dt = Q_hose(p_m, p_k) + Q_leak(p_ambient, p_k)
@@ -62,7 +68,7 @@ struct GasSolution {
  Every flow falls with the pressure it goes to, hence the equations have one solution. Newton's
  method finds it from the sub-step before: its matrix is an arrow, each cup has the manifold as its
  only neighbour. Should it not converge, nested scalar solves do, since p_k(p_m) is the root of a
- rising function and so is p_m. */
+ rising function and so is p_m. Working memory is kept: one thread at a time. */
 class GasNetwork {
  public:
   static constexpr double kLargestSubStep = 0.5e-3;  ///< [s]
@@ -94,6 +100,8 @@ class GasNetwork {
   double manifold_volume_;
   std::vector<CupLineParameters> lines_;
   double ambient_pressure_;
+  mutable EliminatedCups eliminated_;
+  mutable std::vector<double> pressure_before_;  // of the cups, of the last sub-step [Pa]
 };
 
 }  // namespace vacuum_gripper_sim

@@ -7,9 +7,11 @@
 
 #include "vacuum_gripper_sim/core/constraint_operator.h"
 #include "vacuum_gripper_sim/core/implicit_euler.h"
+#include "vacuum_gripper_sim/core/linearized_contacts.h"
 #include "vacuum_gripper_sim/core/parameters.h"
 #include "vacuum_gripper_sim/core/pending_factorization.h"
 #include "vacuum_gripper_sim/core/sparse_cholesky.h"
+#include "vacuum_gripper_sim/core/system_vector.h"
 
 namespace vacuum_gripper_sim {
 
@@ -83,6 +85,7 @@ class LinearSolver {
   bool Hopeless(int iterations, double start, double now, double bound) const;
   bool WornOut(int cost) const;
   bool FactorizeWith(Precision precision);
+  void Precondition(const ConstraintOperator& constraints, bool any_held, Eigen::VectorXd* lambda);
   bool GoOnWithPending(bool worth_starting, bool worth_taking);
 
   LinearSolverParameters parameters_;
@@ -97,7 +100,11 @@ class LinearSolver {
   int iterations_{0};
   int iterations_before_{0};  // of the step, with factorisations given up since
   int factorizations_{0};
-  SystemVector r_, p_, Ap_;  // residual, direction and its product with A, in Refine()
+  // Of Refine().
+  SystemVector r_, p_, Ap_;  // residual, direction and its product with A
+  SystemVector y_, z_;       // of r_ in the preconditioner, half way and at its end
+  LinearizedContacts held_;  // of factorization_
+  Eigen::VectorXd gap_changes_, mu_;
   std::unique_ptr<PendingFactorization> pending_;  // not for kDirect
 };
 

@@ -1,11 +1,13 @@
 #pragma once
 
-#include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <Eigen/LU>
+#include <cstddef>
 #include <vector>
 
 #include "vacuum_gripper_sim/core/contact_compliance.h"
+#include "vacuum_gripper_sim/core/contact_factor.h"
+#include "vacuum_gripper_sim/core/matrix_memory.h"
 
 namespace vacuum_gripper_sim {
 
@@ -35,14 +37,13 @@ struct SlidingContact {
    Research Group, Princeton. */
 class LinearizedContacts {
  public:
-  /// @param W Must outlive this. @param held Rows; the normals of sliding contacts among them.
-  LinearizedContacts(const ContactCompliance& W, const std::vector<Eigen::Index>& held,
-                     const std::vector<SlidingContact>& sliding);
+  /// @param W Must outlive the forces that are asked for. @param held Rows; the normals of sliding
+  /// contacts among them. @returns whether there is a solution; otherwise there are no forces.
+  bool Compute(const ContactCompliance& W, const std::vector<Eigen::Index>& held,
+               const std::vector<SlidingContact>& sliding);
 
-  /// Was there a solution? Otherwise there are no forces.
-  bool usable() const { return usable_; }
-  /// @param delta Of all rows. [m] @returns Of all rows. [N]
-  Eigen::VectorXd Forces(const Eigen::VectorXd& delta) const;
+  /// @param delta Of all rows. [m] @param[out] lambda Of all rows. [N]
+  void Forces(const Eigen::VectorXd& delta, Eigen::VectorXd* lambda);
 
  private:
   /// Some rows of W: the group's own part of K, factorised.
@@ -50,25 +51,28 @@ class LinearizedContacts {
     const ContactCompliance::Group* own{nullptr};
     std::vector<Eigen::Index> held;  // rows of W
     std::vector<SlidingContact> sliding;
-    double share{0.0};                 // by which the diagonal of C_EE is larger
-    Eigen::LLT<Eigen::MatrixXd> C_EE;  // E: held, S: sliding tangents
-    Eigen::MatrixXd inverse_C_ES;      // C_EE^-1 C_ES
-    Eigen::MatrixXd B_SE;
+    ContactFactor C_EE;            // E: held, S: sliding tangents
+    Eigen::MatrixXd inverse_C_ES;  // C_EE^-1 C_ES
+    Eigen::MatrixXd B_SE, B_SS;
     Eigen::PartialPivLU<Eigen::MatrixXd> complement;  // of C_EE
   };
-  bool Factorize(Group* group) const;
+  static bool Factorize(Group* group);
   template <typename Matrix>
   void ApplyQ(Matrix* values) const;
   template <typename Matrix>
-  void SolveGroups(Matrix* values) const;
-  Eigen::VectorXd Solve(Eigen::VectorXd right) const;
-  Eigen::VectorXd Residual(const Eigen::VectorXd& right, const Eigen::VectorXd& lambda) const;
+  void SolveGroups(Matrix* values);
+  void Solve(Eigen::VectorXd* values);
+  void FindResidual(const Eigen::VectorXd& lambda);
 
-  const ContactCompliance* W_;
-  bool usable_{true};
-  std::vector<Group> groups_;
-  ContactCompliance::RowMajorMatrix inverse_QU_;      // (S + Q C)^-1 Q U
+  const ContactCompliance* W_{nullptr};
+  std::vector<Group> groups_;                     // of W's, in their order
+  ContactCompliance::RowMajorMatrix inverse_QU_;  // (S + Q C)^-1 Q U
+  Eigen::MatrixXd UT_inverse_QU_;
   Eigen::PartialPivLU<Eigen::MatrixXd> capacitance_;  // 1 + U^T (S + Q C)^-1 Q U
+  // Of Forces().
+  Eigen::VectorXd right_, residual_;
+  Eigen::VectorXd UT_forces_, moved_;
+  MatrixMemory<double> forces_E_, right_S_, forces_S_;
 };
 
 }  // namespace vacuum_gripper_sim

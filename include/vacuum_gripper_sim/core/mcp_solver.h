@@ -1,8 +1,9 @@
 #pragma once
 
-#include <Eigen/Cholesky>
 #include <Eigen/Core>
+#include <vector>
 
+#include "vacuum_gripper_sim/core/contact_factor.h"
 #include "vacuum_gripper_sim/core/parameters.h"
 
 namespace vacuum_gripper_sim {
@@ -13,15 +14,6 @@ struct McpStatistics {
   int iterations{0};     ///< Sweeps, or linear systems solved.
   double residual{0.0};  ///< max_i |min(delta_i, lambda_i W_ii)|, 0 at a solution. [m]
 };
-
-/// Two contacts in one direction at one node make W singular. A diagonal larger by this share
-/// splits their force evenly and moves no gap by more than this share of itself.
-inline constexpr double kContactRegularization = 1e-12;
-
-/// Cholesky factor of some rows and columns of W, regularised so much, or more where rounding wants
-/// it. @param W_lower Lower triangle. @param[out] share By which the diagonal is larger.
-/// @returns a factor whose info() tells if it is one.
-Eigen::LLT<Eigen::MatrixXd> FactorOfContacts(const Eigen::MatrixXd& W_lower, double* share);
 
 /** Solves the contact part of the mixed complementarity problem of [Bernardin, Sec. III-C], the
  pressure being known and part of delta:
@@ -36,18 +28,39 @@ Eigen::LLT<Eigen::MatrixXd> FactorOfContacts(const Eigen::MatrixXd& W_lower, dou
  takes over
  ([Judice 1994]), which cannot cycle; so it ends for every positive definite W.
 
- @param W          Delassus operator, n by n, symmetric, positive diagonal; may be semi-definite.
- [m/N]
- @param delta      Gaps without contact forces, n. [m]
- @param[in,out] lambda On entry the warm start (zeros: cold), on exit the contact forces, n. [N]
- @throws std::invalid_argument if the sizes disagree.
-
  [Duriez 2006] C. Duriez et al., "Realistic haptic rendering of interacting deformable objects in
    virtual environments", IEEE TVCG 12(1).
  [Hintermueller 2003] M. Hintermueller, K. Ito, K. Kunisch, "The primal-dual active set strategy as
  a semismooth Newton method", SIAM J. Optim. 13(3). [Judice 1994] J. J. Judice, F. M. Pires, "A
  block principal pivoting algorithm for large-scale strictly monotone linear complementarity
  problems", Comput. Oper. Res. 21(5). */
+class McpSolver {
+ public:
+  /** @param W     Delassus operator, n by n, symmetric, positive diagonal; may be semi-definite.
+       [m/N]
+   @param delta  Gaps without contact forces, n. [m]
+   @param[in,out] lambda On entry the warm start (zeros: cold), on exit the contact forces, n. [N]
+   @throws std::invalid_argument if the sizes disagree. */
+  McpStatistics Solve(const Eigen::MatrixXd& W, const Eigen::VectorXd& delta,
+                      const ContactParameters& parameters, Eigen::VectorXd* lambda);
+
+ private:
+  McpStatistics SolveByGaussSeidel(const Eigen::MatrixXd& W, const Eigen::VectorXd& delta,
+                                   const ContactParameters& parameters, Eigen::VectorXd* lambda);
+  McpStatistics SolveByActiveSet(const Eigen::MatrixXd& W, const Eigen::VectorXd& delta,
+                                 const ContactParameters& parameters, Eigen::VectorXd* lambda);
+  void SetForcesOfActive(const Eigen::MatrixXd& W, const Eigen::VectorXd& delta,
+                         Eigen::VectorXd* lambda);
+
+  Eigen::VectorXd delta_end_;  // m
+  // Of the active set.
+  std::vector<bool> is_active_;
+  std::vector<Eigen::Index> active_, violations_;
+  ContactFactor factor_;
+  Eigen::VectorXd forces_;  // N
+};
+
+/// A single solve. @see McpSolver::Solve().
 McpStatistics SolveContacts(const Eigen::MatrixXd& W, const Eigen::VectorXd& delta,
                             const ContactParameters& parameters, Eigen::VectorXd* lambda);
 

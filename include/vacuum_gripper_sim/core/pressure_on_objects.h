@@ -23,8 +23,9 @@ struct ObjectLoad {
 
  @param load Of the pressure on the cup's nodes, 3 by #nodes. [N] @param x_W Where they are. [m]
  @param finder Knows which surface is before a node.
- @returns a load for every object. */
-std::vector<ObjectLoad> PressureOnObjects(const Eigen::Matrix3Xd& load, const Eigen::Matrix3Xd& x_W,
-                                          const ContactFinder& finder, const RigidWorld& world);
+ @param[out] loads One for every object. */
+void PressureOnObjects(const Eigen::Matrix3Xd& load, const Eigen::Matrix3Xd& x_W,
+                       const ContactFinder& finder, const RigidWorld& world,
+                       std::vector<ObjectLoad>* loads);
 
 }  // namespace vacuum_gripper_sim

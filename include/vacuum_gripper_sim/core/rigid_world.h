@@ -42,12 +42,13 @@ class RigidWorld {
   Vector6d velocity(int body) const;                 ///< [m/s], [rad/s]
   Eigen::Vector3d CentreOfMass(int body) const;      ///< World. [m]
   Eigen::Matrix<double, 6, 6> Mass(int body) const;  ///< M. [kg], [kg m^2]
-  /// b of gravity and rotation. @param gravity [m/s^2] @param h [s] @returns 6 #bodies. [N s], [N m
-  /// s]
-  Eigen::VectorXd FreeImpulse(const Eigen::Vector3d& gravity, double h) const;
+  /// b of gravity and rotation. @param gravity [m/s^2] @param h [s] @param[out] b 6 #bodies. [N s],
+  /// [N m s]
+  void FreeImpulse(const Eigen::Vector3d& gravity, double h, Eigen::VectorXd* b) const;
 
-  /// Where the surfaces are after a step. @param dV 6 #bodies.
-  std::vector<RigidSurface> SurfacesAfter(const Eigen::VectorXd& dV, double h) const;
+  /// Where the surfaces are after a step. @param dV 6 #bodies. @param[out] surfaces
+  void SurfacesAfter(const Eigen::VectorXd& dV, double h,
+                     std::vector<RigidSurface>* surfaces) const;
   /// How far a step moves the point of an object that is at p_W when it begins (for one that is put
   /// somewhere: the point that is at p_W when it ends). [m]
   Eigen::Vector3d Displacement(int object, const Eigen::Vector3d& p_W, const Eigen::VectorXd& dV,

@@ -30,7 +30,7 @@ struct FoldContact {
  side; folds that passed each other by more are no longer seen.
 
  Of all faces that a node may touch the nearest counts: one contact a node. Nothing depends on the
- past, so the same shape has the same contacts. */
+ past, so the same shape has the same contacts. Working memory is kept: one thread at a time. */
 class SelfContact {
  public:
   /// Edges of elements between a node and the nearest face that it may touch. Fewer, and a
@@ -45,11 +45,14 @@ class SelfContact {
    @param reach Largest gap. [m] */
   std::vector<FoldContact> Find(const CupFaces& faces, const Eigen::Matrix3Xd& x_W,
                                 double reach) const {
-    return Find(faces, x_W, reach, nodes_);
+    std::vector<FoldContact> contacts;
+    Find(faces, x_W, reach, nodes_, &contacts);
+    return contacts;
   }
   /// The same of some nodes alone. @param nodes Of the boundary, not clamped, ascending.
-  std::vector<FoldContact> Find(const CupFaces& faces, const Eigen::Matrix3Xd& x_W, double reach,
-                                const std::vector<int>& nodes) const;
+  /// @param[out] contacts
+  void Find(const CupFaces& faces, const Eigen::Matrix3Xd& x_W, double reach,
+            const std::vector<int>& nodes, std::vector<FoldContact>* contacts) const;
 
   /// The same node before the same face somewhere else. @param faces Updated to x_W.
   static FoldContact At(const FoldContact& contact, const CupFaces& faces,
@@ -59,11 +62,18 @@ class SelfContact {
   double half_wall(int node) const { return half_walls_[static_cast<std::size_t>(node)]; }
 
  private:
+  /// Outward normals of the boundary.
+  struct Normals {
+    Eigen::Matrix3Xd of_triangles;  // unit, 3 by #triangles
+    Eigen::Matrix3Xd of_nodes;      // means weighted by area, unit, 3 by #nodes; 0 inside
+  };
+  void FindNormals(const Eigen::Matrix3Xi& triangles, const Eigen::Matrix3Xd& x) const;
   bool MayTouch(std::size_t index, int triangle) const;
 
   std::vector<int> nodes_;                    // of the boundary, without the clamped, ascending
   std::vector<std::vector<int>> neighbours_;  // triangles next to each of nodes_, ascending
   std::vector<double> half_walls_;            // by mesh node; 0 inside the material [m]
+  mutable Normals normals_;                   // of the shape at hand
 };
 
 }  // namespace vacuum_gripper_sim

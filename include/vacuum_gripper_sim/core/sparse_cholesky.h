@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "vacuum_gripper_sim/core/eliminated_columns.h"
+#include "vacuum_gripper_sim/core/matrix_memory.h"
 #include "vacuum_gripper_sim/core/parameters.h"
 
 namespace vacuum_gripper_sim {
@@ -22,6 +23,8 @@ namespace vacuum_gripper_sim {
 
  The factor's numbers may be in single precision, for twice the speed; what goes in and comes out is
  in double precision all the same, with an error that |L| |L^T| and single rounding make.
+
+ Solves share working memory: one thread at a time.
 
  [Duff 1983] I. S. Duff, J. K. Reid, "The multifrontal solution of indefinite sparse symmetric
  linear equations", ACM TOMS 9(3). [Liu 1992] J. W. H. Liu, "The multifrontal method for sparse
@@ -55,14 +58,15 @@ class SparseCholesky {
   }
 
   /// A^-1 b.
-  Eigen::VectorXd Solve(const Eigen::VectorXd& b) const { return BackSubstitute(Eliminate(b)); }
-  /// L^-1 P b, the first half of a solve; in elimination order.
-  Eigen::VectorXd Eliminate(const Eigen::VectorXd& b) const;
-  /// P^T L^-T y, the second half.
-  Eigen::VectorXd BackSubstitute(const Eigen::VectorXd& y) const;
+  Eigen::VectorXd Solve(const Eigen::VectorXd& b) const;
+  /// y = L^-1 P b, the first half of a solve; in elimination order.
+  void Eliminate(const Eigen::VectorXd& b, Eigen::VectorXd* y) const;
+  /// x = P^T L^-T y, the second half.
+  void BackSubstitute(const Eigen::VectorXd& y, Eigen::VectorXd* x) const;
 
-  /// L^-1 P B front by front, on the columns that reach it.
-  EliminatedColumns EliminateColumns(const std::vector<NodeColumn>& B) const;
+  /// Y = L^-1 P B front by front, on the columns that reach it. @param[out] Y Keeps its storage
+  /// from call to call.
+  void EliminateColumns(const std::vector<NodeColumn>& B, EliminatedColumns* Y) const;
 
  private:
   /// Columns eliminated together, as one dense front.
@@ -91,6 +95,7 @@ class SparseCholesky {
   struct Numbers {
     std::vector<Scalar> factor;
     std::array<std::vector<Scalar>, 2> updates;
+    mutable MatrixMemory<Scalar> solution, below;  // of solves: of all rows, of those below a front
 
     /// What a front leaves to its parent, 3 #below square.
     Scalar* UpdateOf(const Supernode& front) {
@@ -107,18 +112,19 @@ class SparseCholesky {
   void ShareArithmetic();
   void MapEntries(const Eigen::SparseMatrix<double>& A);
   template <typename Scalar>
-  EliminatedColumns LayOutColumns(const std::vector<NodeColumn>& B,
-                                  std::vector<int>* block_of) const;
+  std::vector<Scalar>& LayOutColumns(const std::vector<NodeColumn>& B, EliminatedColumns* Y) const;
   template <typename Scalar>
   bool EliminateFront(const Supernode& front, const Eigen::SparseMatrix<double>& A,
                       Numbers<Scalar>* numbers) const;
   template <typename Scalar>
-  Eigen::VectorXd Eliminate(const Numbers<Scalar>& numbers, const Eigen::VectorXd& b) const;
+  void Eliminate(const Numbers<Scalar>& numbers, const Eigen::VectorXd& b,
+                 Eigen::VectorXd* y) const;
   template <typename Scalar>
-  Eigen::VectorXd BackSubstitute(const Numbers<Scalar>& numbers, const Eigen::VectorXd& y) const;
+  void BackSubstitute(const Numbers<Scalar>& numbers, const Eigen::VectorXd& y,
+                      Eigen::VectorXd* x) const;
   template <typename Scalar>
-  EliminatedColumns EliminateColumns(const Numbers<Scalar>& numbers,
-                                     const std::vector<NodeColumn>& B) const;
+  void EliminateColumns(const Numbers<Scalar>& numbers, const std::vector<NodeColumn>& B,
+                        EliminatedColumns* Y) const;
 
   Eigen::Index size_{0};           // scalars
   Eigen::Index largest_front_{0};  // rows, scalars
@@ -134,6 +140,7 @@ class SparseCholesky {
   std::array<std::size_t, 2> update_sizes_{};
   std::size_t next_front_{0};  // of a factorisation under way
   std::variant<Numbers<double>, Numbers<float>> numbers_;
+  mutable std::vector<int> block_of_;  // of the columns at hand, by supernode; -1: not reached
 };
 
 }  // namespace vacuum_gripper_sim

@@ -50,8 +50,8 @@ class Suction {
   bool SolveOnce(ContactStage* stage, SuctionSolution* solution, StepTimings* timings);
   bool HoldSeals(ContactStage* stage, GripState* state, SuctionSolution* solution,
                  StepTimings* timings);
-  bool TryToSeal(const std::vector<double>& pressure, ContactStage* stage, GripState* state,
-                 SuctionSolution* solution, StepTimings* timings);
+  bool TryToSeal(ContactStage* stage, GripState* state, SuctionSolution* solution,
+                 StepTimings* timings);
   /// Gives up those of the cups whose cavity has come open. @returns if there were some.
   bool ReleaseOpen(const Classification& classification, std::vector<int>* cups);
   /// Lets the pressure act on what a classification found wet of some cups.
@@ -63,6 +63,10 @@ class Suction {
   // That the next solve loads: pressures of the cups [Pa], and which points of theirs.
   std::vector<double> pressures_;
   std::vector<bool> wet_;
+  // Of the step at hand.
+  std::vector<double> of_new_seals_;     // pressures that cups with a new seal are to have [Pa]
+  std::vector<int> holding_, trying_;    // cups
+  std::vector<std::vector<bool>> seen_;  // wet points by round
 };
 
 }  // namespace vacuum_gripper_sim
