@@ -37,8 +37,9 @@ class ConstraintOperator {
  public:
   explicit ConstraintOperator(const ImplicitEuler& system) : system_(&system) {}
 
-  /// Forgets all contacts; W() is only that of the next ones. @param factorization Of A. @param
-  /// world Its bodies' masses hold from now on. Both must outlive this. @param h Time step. [s]
+  /// Forgets all contacts; SetContacts() is to follow, be it with none. @param factorization Of A.
+  /// @param world Its bodies' masses hold from now on. Both must outlive this. @param h Time step.
+  /// [s]
   void Reset(const SparseCholesky& factorization, const RigidWorld& world, double h);
 
   /** Sets the rows. Columns of contacts that were there before, in the same places, stay. */

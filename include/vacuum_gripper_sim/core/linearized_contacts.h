@@ -65,9 +65,9 @@ class LinearizedContacts {
   void FindResidual(const Eigen::VectorXd& lambda);
 
   const ContactCompliance* W_{nullptr};
-  std::vector<Group> groups_;                     // of W's, in their order
-  ContactCompliance::RowMajorMatrix inverse_QU_;  // (S + Q C)^-1 Q U
-  Eigen::MatrixXd UT_inverse_QU_;
+  std::vector<Group> groups_;                         // of W's, in their order
+  ContactCompliance::RowMajorMatrix inverse_QU_;      // (S + Q C)^-1 Q U
+  Eigen::MatrixXd UT_inverse_QU_;                     // and 1 on its diagonal
   Eigen::PartialPivLU<Eigen::MatrixXd> capacitance_;  // 1 + U^T (S + Q C)^-1 Q U
   // Of Forces().
   Eigen::VectorXd right_, residual_;
