@@ -33,6 +33,9 @@ class Diagnostics {
   /// Steps that were skipped because the clock ran away, since the start.
   void SetSkippedSteps(long count) { skipped_ = count; }
 
+  /// How the loop is scheduled, see SchedulingOfThisThread().
+  void SetScheduling(const std::string& scheduling) { scheduling_ = scheduling; }
+
   /// Publishes a report if one is due.
   void Update();
 
@@ -59,6 +62,7 @@ class Diagnostics {
   long undone_steps_{0};
   long skipped_{0};
   unsigned contacts_{0};
+  std::string scheduling_;
   ros::WallTime setpoint_time_;
   ros::WallTime next_report_;
   Window window_;

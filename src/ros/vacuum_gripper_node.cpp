@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "loop_priority.h"
 #include "messages.h"
 #include "vacuum_gripper_sim/core/gmsh_reader.h"
 
@@ -86,6 +87,14 @@ void VacuumGripperNode::AdvertiseCups() {
 }
 
 void VacuumGripperNode::Run() {
+  LoopPriority priority(parameters_.realtime_priority);
+  if (!priority.refusal().empty()) {
+    ROS_WARN(
+        "realtime_priority = %d is not granted (%s): scheduled normally. Allow it by 'rtprio' in "
+        "/etc/security/limits.conf (see 'ulimit -r') or the capability CAP_SYS_NICE",
+        parameters_.realtime_priority, priority.refusal().c_str());
+  }
+  diagnostics_.SetScheduling(SchedulingOfThisThread());
   while (ros::ok()) {
     switch (schedule_.Poll(ros::Time::now())) {
       case StepSchedule::Event::kWait:
@@ -101,7 +110,16 @@ void VacuumGripperNode::Run() {
         break;
     }
     diagnostics_.Update();
-    ros::getGlobalCallbackQueue()->callAvailable(schedule_.TimeToWait(ros::Time::now()));
+    const ros::WallDuration wait = schedule_.TimeToWait(ros::Time::now());
+    if (priority.OnWait(wait.toSec(), ros::SteadyTime::now().toSec())) {
+      diagnostics_.SetScheduling(SchedulingOfThisThread());
+      ROS_WARN(
+          "realtime_priority = %d is given up, scheduled normally from now on: for a second no "
+          "step "
+          "ended before the next was due, and others would have been kept from the core",
+          parameters_.realtime_priority);
+    }
+    ros::getGlobalCallbackQueue()->callAvailable(wait);
   }
 }
 
