@@ -25,6 +25,7 @@ target_sources(allocation_test PRIVATE test/allocation/counter.cpp)
 
 # The parts of the node that need no graph.
 catkin_add_gtest(node_parts_test test/ros/actuator_test.cpp test/ros/loop_priority_test.cpp
+  test/ros/outbox_test.cpp
   test/ros/step_schedule_test.cpp test/ros/step_times_test.cpp src/ros/actuator.cpp
   src/ros/loop_priority.cpp src/ros/step_schedule.cpp src/ros/step_times.cpp)
 target_include_directories(node_parts_test PRIVATE src/ros)
