@@ -22,8 +22,8 @@ class Diagnostics {
   Diagnostics(const std::string& hardware_id, double period, double time_step,
               double solver_tolerance);
 
-  /** @param wall_time   What the step took, publishing included. [s]
-      @param publishing  What publishing took of it. [s]
+  /** @param wall_time   What the step took. [s]
+      @param publishing  What publishing took meanwhile, on its own thread. [s]
       @param met_deadline False if it ended after its period. */
   void OnStep(const StepResult& result, double wall_time, double publishing, bool met_deadline);
   /// The simulation could not be continued and began anew.

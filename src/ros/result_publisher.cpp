@@ -9,8 +9,8 @@
 
 namespace vacuum_gripper_sim {
 
-ResultPublisher::ResultPublisher(ros::NodeHandle private_nh, const NodeParameters& parameters,
-                                 const Simulator& simulator)
+ResultPublisher::ResultPublisher(const ros::NodeHandle& private_nh,
+                                 const NodeParameters& parameters, const Simulator& simulator)
     : nh_(private_nh),
       world_frame_(parameters.world_frame),
       cup_frame_(parameters.cup_frame),

@@ -20,7 +20,7 @@ namespace vacuum_gripper_sim {
 class ResultPublisher {
  public:
   /// @param private_nh Publishes below it. @param simulator Its mesh and cavity must outlive this.
-  ResultPublisher(ros::NodeHandle private_nh, const NodeParameters& parameters,
+  ResultPublisher(const ros::NodeHandle& private_nh, const NodeParameters& parameters,
                   const Simulator& simulator);
 
   void Publish(const Moment& moment);

@@ -18,8 +18,8 @@
 namespace vacuum_gripper_sim {
 namespace {
 
-constexpr double kMountIsBehind = 0.01;  // Distance to mount_frame that is worth a warning. [m]
-constexpr std::size_t kOutboxSize = 32;  // Steps that may wait to be published.
+constexpr double kMountIsBehind = 0.01;   // Distance to mount_frame that is worth a warning. [m]
+constexpr std::size_t kOutboxSize = 100;  // Steps that may wait to be published.
 
 }  // namespace
 
