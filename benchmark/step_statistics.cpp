@@ -1,12 +1,9 @@
 #include "step_statistics.h"
 
-#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <numeric>
-
-#include "thread_clock.h"
 
 namespace vacuum_gripper_sim {
 namespace {
@@ -32,20 +29,6 @@ void ReportTimes(const std::string& clock, const std::vector<double>& times,
 }
 
 }  // namespace
-
-double Yardstick() {
-  const Eigen::MatrixXd a = Eigen::MatrixXd::Random(512, 512);
-  const Eigen::MatrixXd b = Eigen::MatrixXd::Random(512, 512);
-  Eigen::MatrixXd c(512, 512);
-  std::vector<double> times;
-  for (int i = 0; i < 15; ++i) {
-    const double begin = ThreadTime();
-    c.noalias() = a * b;
-    benchmark::DoNotOptimize(c.data());
-    times.push_back(ThreadTime() - begin);
-  }
-  return Quantile(times, 0.5);
-}
 
 double StepStatistics::total_cpu() const { return Sum(cpu_); }
 

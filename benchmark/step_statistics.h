@@ -6,11 +6,9 @@
 #include <utility>
 #include <vector>
 
-namespace vacuum_gripper_sim {
+#include "yardstick.h"
 
-/// Median thread-CPU time of Eigen's product of two dense 512 x 512 matrices: how fast this core is
-/// just now, with this program's compiler flags. [s]
-double Yardstick();
+namespace vacuum_gripper_sim {
 
 /// Times of the steps of one case, and what is reported of them. Made before the first step and
 /// reported after the last, it measures the yardstick at both ends.

@@ -63,6 +63,7 @@ void Diagnostics::Report(diagnostic_updater::DiagnosticStatusWrapper& status) {
   status.add("step time max [ms]", 1e3 * times_.Max());
   status.add("publishing share [%]", 1e2 * times_.PublishingShare());
   status.add("step budget [ms]", 1e3 * time_step_);
+  status.add("scheduling", scheduling_);
   status.add("missed deadlines", missed_deadlines_);
   status.add("skipped steps", skipped_);
   status.add("real-time factor", times_.count() * time_step_ / elapsed);

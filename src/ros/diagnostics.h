@@ -22,8 +22,8 @@ class Diagnostics {
   Diagnostics(const std::string& hardware_id, double period, double time_step,
               double solver_tolerance);
 
-  /** @param wall_time   What the step took, publishing included. [s]
-      @param publishing  What publishing took of it. [s]
+  /** @param wall_time   What the step took. [s]
+      @param publishing  What publishing took meanwhile, on its own thread. [s]
       @param met_deadline False if it ended after its period. */
   void OnStep(const StepResult& result, double wall_time, double publishing, bool met_deadline);
   /// The simulation could not be continued and began anew.
@@ -32,6 +32,9 @@ class Diagnostics {
   void OnSetpoint() { setpoint_time_ = ros::WallTime::now(); }
   /// Steps that were skipped because the clock ran away, since the start.
   void SetSkippedSteps(long count) { skipped_ = count; }
+
+  /// How the loop is scheduled, see SchedulingOfThisThread().
+  void SetScheduling(const std::string& scheduling) { scheduling_ = scheduling; }
 
   /// Publishes a report if one is due.
   void Update();
@@ -59,6 +62,7 @@ class Diagnostics {
   long undone_steps_{0};
   long skipped_{0};
   unsigned contacts_{0};
+  std::string scheduling_;
   ros::WallTime setpoint_time_;
   ros::WallTime next_report_;
   Window window_;

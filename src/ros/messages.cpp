@@ -135,17 +135,17 @@ geometry_msgs::TransformStamped ToTransform(const Eigen::Isometry3d& X_PF, const
 }
 
 std::vector<geometry_msgs::TransformStamped> ToTransforms(const StepResult& result,
-                                                          const std::vector<RigidObject>& objects,
+                                                          const std::vector<ObjectLabel>& objects,
                                                           const std_msgs::Header& header) {
   std::vector<geometry_msgs::TransformStamped> transforms;
   for (std::size_t i = 0; i < objects.size(); ++i) {
-    if (!objects[i].inertia) continue;
+    if (!objects[i].is_free) continue;
     transforms.push_back(ToTransform(result.objects.at(i).X_WO, objects[i].name, header));
   }
   return transforms;
 }
 
-ContactWrenches ToContactWrenches(const StepResult& result, const std::vector<RigidObject>& objects,
+ContactWrenches ToContactWrenches(const StepResult& result, const std::vector<ObjectLabel>& objects,
                                   const std_msgs::Header& header) {
   ContactWrenches message;
   message.header = header;

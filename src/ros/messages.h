@@ -13,8 +13,8 @@
 #include <string>
 #include <vector>
 
+#include "moment.h"
 #include "vacuum_gripper_sim/core/cavity_surface.h"
-#include "vacuum_gripper_sim/core/rigid_object.h"
 #include "vacuum_gripper_sim/core/step_result.h"
 #include "vacuum_gripper_sim/core/vacuum_sensor.h"
 
@@ -51,12 +51,12 @@ geometry_msgs::TransformStamped ToTransform(const Eigen::Isometry3d& X_PF, const
 
 /// Poses of the free objects. @param objects Of the result. @param header Of `world_frame`.
 std::vector<geometry_msgs::TransformStamped> ToTransforms(const StepResult& result,
-                                                          const std::vector<RigidObject>& objects,
+                                                          const std::vector<ObjectLabel>& objects,
                                                           const std_msgs::Header& header);
 
 /// What the cup does to the objects, each in its own frame. @param objects Of the result.
 /// @param header Of `world_frame`.
-ContactWrenches ToContactWrenches(const StepResult& result, const std::vector<RigidObject>& objects,
+ContactWrenches ToContactWrenches(const StepResult& result, const std::vector<ObjectLabel>& objects,
                                   const std_msgs::Header& header);
 
 /// True when suction acts in a cavity that is airtight, or whose leak the pump keeps up with.

@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "loop_priority.h"
 #include "vacuum_gripper_sim/config/package_paths.h"
 #include "vacuum_gripper_sim/config/parameter_reader.h"
 #include "vacuum_gripper_sim/config/simulator_config.h"
@@ -27,6 +28,7 @@ struct Required {
 };
 constexpr Required kRequired[] = {
     {"", "rate"},
+    {"", "realtime_priority"},
     {"", "world_frame"},
     {"", "cup_frame"},
     {"", "actuator"},
@@ -129,6 +131,17 @@ double GetPositive(ParameterReader* reader, const std::string& key, double maxim
   return value;
 }
 
+int GetRealtimePriority(ParameterReader* reader) {
+  const std::string key = "realtime_priority";
+  const int priority = reader->GetInt(key);
+  if (priority < 0 || priority > LoopPriority::kHighest) {
+    throw std::invalid_argument("parameter " + reader->Name(key) + " = " +
+                                std::to_string(priority) +
+                                " must be >= 0 and <= " + std::to_string(LoopPriority::kHighest));
+  }
+  return priority;
+}
+
 // A number is no name, though YAML would print it as one.
 std::string GetText(ParameterReader* reader, const std::string& key) {
   const YAML::Node value = reader->GetNode(key);
@@ -223,6 +236,7 @@ NodeParameters ReadNodeParameters(const YAML::Node& node, const std::string& cup
     reason << "parameter rate = " << parameters.rate << " must be >= 10 and <= 10000 [Hz]";
     throw std::invalid_argument(reason.str());
   }
+  parameters.realtime_priority = GetRealtimePriority(&reader);
   parameters.world_frame = GetFrame(&reader, "world_frame");
   parameters.cup_frame = GetFrame(&reader, "cup_frame");
   const std::string actuator = reader.GetChoice("actuator", {"pose_command", "tf"}, "pose_command");

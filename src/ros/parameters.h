@@ -22,9 +22,10 @@ enum class ActuatorSource { kPoseCommand, kTf };
 
 /// Everything the node reads from its private namespace; config/vacuum_gripper.yaml explains it.
 struct NodeParameters {
-  double rate{0.0};         ///< Steps per second of ROS time; h = 1 / rate. [Hz] > 0
-  std::string world_frame;  ///< Inertial frame the cup is simulated in.
-  std::string cup_frame;    ///< Frame of the mount and of the wrench.
+  double rate{0.0};          ///< Steps per second of ROS time; h = 1 / rate. [Hz] > 0
+  int realtime_priority{0};  ///< Of the loop's thread, see LoopPriority. 0 .. 99
+  std::string world_frame;   ///< Inertial frame the cup is simulated in.
+  std::string cup_frame;     ///< Frame of the mount and of the wrench.
   ActuatorSource actuator{ActuatorSource::kPoseCommand};
   std::string mount_frame;        ///< tf frame that the mount follows with kTf.
   double margin_rate{0.0};        ///< Of `~holding_margin`, at most. [Hz] > 0

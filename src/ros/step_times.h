@@ -4,10 +4,10 @@
 
 namespace vacuum_gripper_sim {
 
-/// Wall times of the steps of a while, each with the part of it that went into publishing.
+/// Wall times of the steps of a while, and of what was published beside them.
 class StepTimes {
  public:
-  /// @param total Of the step, publishing included. [s] @param publishing [s]
+  /// @param total Of the step. [s] @param publishing What publishing took meanwhile. [s]
   void Add(double total, double publishing);
   /// Forgets all steps; keeps their memory.
   void Clear();
@@ -18,7 +18,7 @@ class StepTimes {
   /// The smallest time that at least `share` of the steps did not exceed ("nearest rank"). [s]
   /// @param share 0 < share <= 1.
   double Percentile(double share);
-  /// Of all the steps' time. [-]
+  /// Of publishing, over all the steps' time. [-]
   double PublishingShare() const;
 
  private:

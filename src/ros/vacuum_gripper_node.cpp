@@ -2,7 +2,6 @@
 
 #include <ros/callback_queue.h>
 #include <ros/ros.h>
-#include <std_msgs/Bool.h>
 #include <tf2/exceptions.h>
 
 #include <cmath>
@@ -12,13 +11,15 @@
 #include <utility>
 #include <vector>
 
+#include "loop_priority.h"
 #include "messages.h"
 #include "vacuum_gripper_sim/core/gmsh_reader.h"
 
 namespace vacuum_gripper_sim {
 namespace {
 
-constexpr double kMountIsBehind = 0.01;  // Distance to mount_frame that is worth a warning. [m]
+constexpr double kMountIsBehind = 0.01;   // Distance to mount_frame that is worth a warning. [m]
+constexpr std::size_t kOutboxSize = 100;  // Steps that may wait to be published.
 
 }  // namespace
 
@@ -30,19 +31,17 @@ VacuumGripperNode::VacuumGripperNode(const ros::NodeHandle& private_nh)
       actuator_(parameters_.X_WM, parameters_.motion_limits, parameters_.simulator.time_step),
       world_(parameters_.scene_description, parameters_.world_frame, parameters_.surface_defaults),
       faults_(private_nh, parameters_.faults, FaultList(parameters_.simulator, world_.names())),
-      vacuum_state_(private_nh, parameters_.sensor, parameters_.simulator.vacuum.ambient_pressure,
-                    parameters_.cup_frame),
-      painter_(simulator_.mesh(), simulator_.cavity()),
       margin_monitor_(private_nh, mesh_, parameters_.simulator, parameters_.cup_frame,
                       parameters_.margin_rate),
       schedule_(parameters_.simulator.time_step, ros::Time::isSimTime()),
       diagnostics_(parameters_.cup.name, parameters_.diagnostic_period,
-                   parameters_.simulator.time_step, parameters_.simulator.contact.tolerance) {
-  AdvertiseAndSubscribe();
-  AdvertiseCups();
+                   parameters_.simulator.time_step, parameters_.simulator.contact.tolerance),
+      result_publisher_(private_nh, parameters_, simulator_),
+      outbox_([this](const Moment& moment) { result_publisher_.Publish(moment); }, kOutboxSize) {
+  Subscribe();
   world_.Update(tf_buffer_, &simulator_);
   simulator_.Reset(parameters_.X_WM);  // now it sees the world
-  PublishState(ros::Time::now(), simulator_.result());
+  Post(Occasion::kReset, ros::Time::now());
   const int num_cups = simulator_.cups().num_cups();
   ROS_INFO("%d cup%s %s: %d nodes, %d %s elements, %g Hz", num_cups, num_cups > 1 ? "s" : "",
            parameters_.cup.name.c_str(), simulator_.mesh().num_nodes(),
@@ -50,16 +49,7 @@ VacuumGripperNode::VacuumGripperNode(const ros::NodeHandle& private_nh)
            parameters_.rate);
 }
 
-void VacuumGripperNode::AdvertiseAndSubscribe() {
-  constexpr bool kLatched = true;
-  wrench_publisher_ = nh_.advertise<geometry_msgs::WrenchStamped>("wrench", kQueueSize);
-  contact_wrenches_publisher_ = nh_.advertise<ContactWrenches>("contact_wrenches", kQueueSize);
-  seal_publisher_ = nh_.advertise<SealState>("seal_state", kQueueSize, kLatched);
-  pressure_publisher_ = nh_.advertise<sensor_msgs::FluidPressure>("pressure", kQueueSize);
-  points_publisher_ = nh_.advertise<sensor_msgs::PointCloud2>("surface_points", 2);
-  markers_publisher_ = nh_.advertise<visualization_msgs::MarkerArray>("markers", 2);
-  grasping_publisher_ = nh_.advertise<std_msgs::Bool>("grasping", kQueueSize, kLatched);
-
+void VacuumGripperNode::Subscribe() {
   const ros::TransportHints hints = ros::TransportHints().tcpNoDelay();
   setpoint_subscriber_ = nh_.subscribe("pressure_setpoint", kQueueSize,
                                        &VacuumGripperNode::OnPressureSetpoint, this, hints);
@@ -74,18 +64,15 @@ void VacuumGripperNode::AdvertiseAndSubscribe() {
   reset_server_ = nh_.advertiseService("reset", &VacuumGripperNode::OnReset, this);
 }
 
-void VacuumGripperNode::AdvertiseCups() {
-  std::vector<geometry_msgs::TransformStamped> transforms;
-  const std_msgs::Header header = MakeHeader(ros::Time::now(), parameters_.cup_frame);
-  for (const CupMount& cup : parameters_.simulator.cups) {
-    if (cup.name.empty()) return;  // the only one, without a list
-    cup_publishers_.emplace_back(nh_, cup, parameters_.cup_frame);
-    transforms.push_back(ToTransform(cup.X_MC, cup_publishers_.back().frame(), header));
-  }
-  static_tf_broadcaster_.sendTransform(transforms);
-}
-
 void VacuumGripperNode::Run() {
+  LoopPriority priority(parameters_.realtime_priority);
+  if (!priority.refusal().empty()) {
+    ROS_WARN(
+        "realtime_priority = %d is not granted (%s): scheduled normally. Allow it by 'rtprio' in "
+        "/etc/security/limits.conf (see 'ulimit -r') or the capability CAP_SYS_NICE",
+        parameters_.realtime_priority, priority.refusal().c_str());
+  }
+  diagnostics_.SetScheduling(SchedulingOfThisThread());
   while (ros::ok()) {
     switch (schedule_.Poll(ros::Time::now())) {
       case StepSchedule::Event::kWait:
@@ -101,7 +88,16 @@ void VacuumGripperNode::Run() {
         break;
     }
     diagnostics_.Update();
-    ros::getGlobalCallbackQueue()->callAvailable(schedule_.TimeToWait(ros::Time::now()));
+    const ros::WallDuration wait = schedule_.TimeToWait(ros::Time::now());
+    if (priority.OnWait(wait.toSec(), ros::SteadyTime::now().toSec())) {
+      diagnostics_.SetScheduling(SchedulingOfThisThread());
+      ROS_WARN(
+          "realtime_priority = %d is given up, scheduled normally from now on: for a second no "
+          "step "
+          "ended before the next was due, and others would have been kept from the core",
+          parameters_.realtime_priority);
+    }
+    ros::getGlobalCallbackQueue()->callAvailable(wait);
   }
 }
 
@@ -120,14 +116,23 @@ void VacuumGripperNode::Step(const ros::Time& stamp) {
   if (undone && throttle_.Pass("undone")) {
     ROS_ERROR("step undone, last good state restored: %s", result.message.c_str());
   }
-  const ros::WallTime stepped = ros::WallTime::now();
-  Publish(stamp, result);
+  Post(Occasion::kStep, stamp);
   if (!undone) margin_monitor_.OnStep(stamp, simulator_);
 
   const bool met_deadline = schedule_.OnStepFinished(ros::Time::now());
   const ros::WallTime end = ros::WallTime::now();
   diagnostics_.SetSkippedSteps(schedule_.skipped_steps());
-  diagnostics_.OnStep(result, (end - begin).toSec(), (end - stepped).toSec(), met_deadline);
+  diagnostics_.OnStep(result, (end - begin).toSec(), outbox_.TakeDeliveryTime(), met_deadline);
+}
+
+void VacuumGripperNode::Post(Occasion occasion, const ros::Time& stamp) {
+  outbox_.Post([&](Moment* moment) {
+    moment->occasion = occasion;
+    moment->stamp = stamp;
+    moment->result = simulator_.result();
+    SetLabels(simulator_.objects(), &moment->objects);
+    moment->sensor_stuck = faults_.sensor_stuck();
+  });
 }
 
 const StepResult& VacuumGripperNode::AdvanceSimulator(const Command& command) {
@@ -264,67 +269,7 @@ void VacuumGripperNode::Reset() {
   actuator_.JumpToTarget();
   world_.Reset(&simulator_);
   simulator_.Reset(actuator_.target());
-  vacuum_state_.Reset();
-  PublishState(ros::Time::now(), simulator_.result());
-}
-
-// --- Results -------------------------------------------------------------------------------------
-
-void VacuumGripperNode::Publish(const ros::Time& stamp, const StepResult& result) {
-  const std_msgs::Header cup_header = MakeHeader(stamp, parameters_.cup_frame);
-  const std_msgs::Header world_header = MakeHeader(stamp, parameters_.world_frame);
-  std::vector<geometry_msgs::TransformStamped> transforms =
-      ToTransforms(result, simulator_.objects(), world_header);
-  if (parameters_.actuator == ActuatorSource::kPoseCommand) {
-    transforms.push_back(ToTransform(result.X_WM, parameters_.cup_frame, world_header));
-  }
-  if (!transforms.empty()) tf_broadcaster_.sendTransform(transforms);
-  const double ambient_pressure = parameters_.simulator.vacuum.ambient_pressure;
-  contact_wrenches_publisher_.publish(
-      ToContactWrenches(result, simulator_.objects(), world_header));
-  wrench_publisher_.publish(ToWrench(result.force_M, result.torque_M, cup_header));
-  pressure_publisher_.publish(ToFluidPressure(result, ambient_pressure, cup_header));
-  for (std::size_t i = 0; i < cup_publishers_.size(); ++i) {
-    cup_publishers_[i].PublishForces(stamp, result.cups[i], ambient_pressure);
-  }
-  vacuum_state_.OnStep(stamp, result, faults_.sensor_stuck());
-  PublishState(stamp, result);
-  PublishDisplay(world_header, result);
-}
-
-void VacuumGripperNode::PublishState(const ros::Time& stamp, const StepResult& result) {
-  seal_publisher_.publish(
-      ToSealState(result, result.setpoint, MakeHeader(stamp, parameters_.cup_frame)));
-  for (std::size_t i = 0; i < cup_publishers_.size(); ++i) {
-    cup_publishers_[i].PublishState(stamp, result.cups[i], result.setpoint);
-  }
-  const bool grasping = IsGrasping(result);
-  if (grasping != grasping_ || !grasping_published_) {
-    std_msgs::Bool message;
-    message.data = grasping;
-    grasping_publisher_.publish(message);
-    grasping_ = grasping;
-    grasping_published_ = true;
-  }
-  if (result.status != last_status_) {
-    ROS_INFO("seal: %s (%.0f Pa)", NameOf(result.status), result.gauge_pressure);
-    last_status_ = result.status;
-  }
-}
-
-/// What is large: at the display's rate and only to those who listen.
-void VacuumGripperNode::PublishDisplay(const std_msgs::Header& world_header,
-                                       const StepResult& result) {
-  // Paced by wall time: it is people who look.
-  const ros::WallTime now = ros::WallTime::now();
-  const bool wants_points = points_publisher_.getNumSubscribers() > 0;
-  const bool wants_markers = markers_publisher_.getNumSubscribers() > 0;
-  if ((!wants_points && !wants_markers) || now < next_display_) return;
-  next_display_ = now + ros::WallDuration(1.0 / parameters_.display_rate);
-  if (wants_points) {
-    points_publisher_.publish(ToPointCloud(result, simulator_.cavity(), world_header));
-  }
-  if (wants_markers) markers_publisher_.publish(painter_.Paint(result, world_header));
+  Post(Occasion::kReset, ros::Time::now());
 }
 
 }  // namespace vacuum_gripper_sim

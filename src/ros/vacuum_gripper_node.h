@@ -5,32 +5,28 @@
 #include <std_srvs/Empty.h>
 #include <std_srvs/Trigger.h>
 #include <tf2_ros/buffer.h>
-#include <tf2_ros/static_transform_broadcaster.h>
-#include <tf2_ros/transform_broadcaster.h>
 #include <tf2_ros/transform_listener.h>
 #include <vacuum_gripper_sim/PressureSetpoint.h>
 
-#include <vector>
-
 #include "actuator.h"
-#include "cup_publisher.h"
 #include "diagnostics.h"
 #include "fault_server.h"
 #include "margin_monitor.h"
-#include "markers.h"
+#include "moment.h"
+#include "outbox.h"
 #include "parameters.h"
+#include "result_publisher.h"
 #include "step_schedule.h"
 #include "throttle.h"
 #include "vacuum_gripper_sim/core/simulator.h"
-#include "vacuum_state_publisher.h"
 #include "world.h"
 
 namespace vacuum_gripper_sim {
 
 /** Translates between ROS and the Simulator; holds no physics.
 
- One thread steps and serves callbacks, so commands act between two steps and never during one; only
- tf listens on a thread of its own. */
+ One thread steps and serves callbacks, so commands act between two steps and never during one; tf
+ listens and results are published on threads of their own. */
 class VacuumGripperNode {
  public:
   /// @throws std::invalid_argument naming the parameter that is not set, mistyped or out of range.
@@ -41,8 +37,7 @@ class VacuumGripperNode {
   void Run();
 
  private:
-  void AdvertiseAndSubscribe();
-  void AdvertiseCups();
+  void Subscribe();
 
   void OnPressureSetpoint(const PressureSetpoint& message);
   void OnPoseCommand(const geometry_msgs::PoseStamped& message);
@@ -57,10 +52,7 @@ class VacuumGripperNode {
   void Reset();  // The cup and the free objects.
   void Step(const ros::Time& stamp);
   const StepResult& AdvanceSimulator(const Command& command);
-
-  void Publish(const ros::Time& stamp, const StepResult& result);
-  void PublishState(const ros::Time& stamp, const StepResult& result);  // What is latched.
-  void PublishDisplay(const std_msgs::Header& world_header, const StepResult& result);
+  void Post(Occasion occasion, const ros::Time& stamp);  // The simulator's state, to be published.
 
   ros::NodeHandle nh_;
   NodeParameters parameters_;
@@ -69,8 +61,6 @@ class VacuumGripperNode {
   Actuator actuator_;
   World world_;
   FaultServer faults_;
-  VacuumStatePublisher vacuum_state_;
-  MarkerPainter painter_;
   MarginMonitor margin_monitor_;
   StepSchedule schedule_;
   Diagnostics diagnostics_;
@@ -78,20 +68,14 @@ class VacuumGripperNode {
 
   double setpoint_{0.0};          // Last accepted. [Pa] gauge
   bool mount_frame_seen_{false};  // With actuator tf.
-  bool grasping_{false};
-  bool grasping_published_{false};
-  SealStatus last_status_{SealStatus::kOpen};
-  ros::WallTime next_display_;
 
   tf2_ros::Buffer tf_buffer_;
   tf2_ros::TransformListener tf_listener_{tf_buffer_};
-  tf2_ros::TransformBroadcaster tf_broadcaster_;
-  tf2_ros::StaticTransformBroadcaster static_tf_broadcaster_;
   ros::Subscriber setpoint_subscriber_, pose_subscriber_;
-  ros::Publisher wrench_publisher_, contact_wrenches_publisher_, seal_publisher_,
-      pressure_publisher_, points_publisher_, markers_publisher_, grasping_publisher_;
-  std::vector<CupPublisher> cup_publishers_;  // Of cups with names, all or none.
   ros::ServiceServer on_server_, off_server_, grip_server_, drop_server_, reset_server_;
+
+  ResultPublisher result_publisher_;
+  Outbox<Moment> outbox_;  // last: publishes on its thread with what is above
 };
 
 }  // namespace vacuum_gripper_sim

@@ -103,9 +103,8 @@ void World::SetObjects(const std::vector<bool>& were_known, Simulator* simulator
 
 Eigen::Isometry3d World::FindPose(const tf2_ros::Buffer& tf, const PlacedLink& placed) {
   const std::string& frame = placed.link.object.name;
-  const bool is_broadcast =
-      frame == world_frame_ || tf.canTransform(world_frame_, frame, ros::Time(0));
-  if (placed.is_free() && !is_broadcast) {
+  if (placed.is_free() && frame != world_frame_ &&
+      !tf.canTransform(world_frame_, frame, ros::Time(0))) {
     return LookUpFrame(placed.link.parent, world_frame_, tf, nullptr) * placed.link.X_PO;
   }
   ros::Time stamp;

@@ -29,6 +29,7 @@ WRONG = {
     'cup': ['no_such_cup', 5, {'name': 'x'}],
     'margin_rate': [0.0, -1.0],
     'display_rate': [0.0, -1.0],
+    'realtime_priority': [-1, 100, 1.5],
     'diagnostic_period': [0.0],
     'ambient_pressure': [0.0, -1.0, 50000.0],
     'initial_position': [[0.0, 0.0], [0.0, 0.0, 'up'], 0.05, [0.0, 0.0, float('inf')]],

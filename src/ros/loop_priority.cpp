@@ -1,0 +1,66 @@
+#include "loop_priority.h"
+
+#include <sched.h>
+#include <sys/prctl.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <system_error>
+
+namespace vacuum_gripper_sim {
+namespace {
+
+constexpr double kLongestWithoutRest = 1.0;  // [s]
+constexpr double kLongestStep = 0.1;         // [s]; what takes longer was stopped from outside
+constexpr unsigned long kTimerSlack = 1;     // [ns]; 0 would mean the default
+
+// Threads made later must not inherit it. Only the privileged can take this flag back, so it stays
+// when the priority goes.
+int SetScheduler(int policy, int priority) {
+  sched_param parameters{};
+  parameters.sched_priority = priority;
+  return sched_setscheduler(0, policy | SCHED_RESET_ON_FORK, &parameters);
+}
+
+}  // namespace
+
+std::string SchedulingOfThisThread() {
+  sched_param parameters{};
+  sched_getparam(0, &parameters);
+  const std::string priority = " " + std::to_string(parameters.sched_priority);
+  switch (sched_getscheduler(0) & ~SCHED_RESET_ON_FORK) {
+    case SCHED_FIFO:
+      return "SCHED_FIFO" + priority;
+    case SCHED_RR:
+      return "SCHED_RR" + priority;
+    case SCHED_BATCH:
+      return "SCHED_BATCH";
+    case SCHED_IDLE:
+      return "SCHED_IDLE";
+    default:
+      return "normal";
+  }
+}
+
+bool RestWatch::IsRestless(double wait, double now) {
+  const double passed = std::min(now - last_.value_or(now), kLongestStep);
+  last_ = now;
+  busy_ = wait > 0.0 ? 0.0 : busy_ + passed;
+  return busy_ > kLongestWithoutRest;
+}
+
+LoopPriority::LoopPriority(int priority) {
+  prctl(PR_SET_TIMERSLACK, kTimerSlack);
+  if (priority == 0) return;
+  held_ = SetScheduler(SCHED_FIFO, priority) == 0;
+  if (!held_) refusal_ = std::generic_category().message(errno);
+}
+
+bool LoopPriority::OnWait(double wait, double now) {
+  if (!held_ || !watch_.IsRestless(wait, now)) return false;
+  SetScheduler(SCHED_OTHER, 0);
+  held_ = false;
+  return true;
+}
+
+}  // namespace vacuum_gripper_sim

@@ -1,0 +1,84 @@
+#pragma once
+
+#include <semaphore.h>
+
+#include <atomic>
+#include <chrono>
+#include <cstddef>
+#include <functional>
+#include <thread>
+#include <utility>
+#include <vector>
+
+namespace vacuum_gripper_sim {
+
+/** Delivers items on a thread of its own, in the order they were posted.
+
+ Posting takes as long as filling an item in: there is no lock for which a thread of high priority
+ would wait for the deliveries of one of low priority, unless the outbox is full. Items are used
+ again, so that posting allocates no memory once they are large enough. */
+template <typename Item>
+class Outbox {
+ public:
+  /// @param deliver Called on the outbox's thread; must not throw. @param capacity Items posted and
+  /// not yet delivered. > 0
+  Outbox(std::function<void(const Item&)> deliver, std::size_t capacity)
+      : deliver_(std::move(deliver)), items_(capacity) {
+    sem_init(&room_, 0, static_cast<unsigned>(capacity));
+    sem_init(&posted_, 0, 0);
+    thread_ = std::thread([this] { Work(); });
+  }
+  /// Delivers what still waits.
+  ~Outbox() {
+    stopping_ = true;
+    sem_post(&posted_);
+    thread_.join();
+    sem_destroy(&posted_);
+    sem_destroy(&room_);
+  }
+  Outbox(const Outbox&) = delete;
+  Outbox& operator=(const Outbox&) = delete;
+
+  /// Waits while the outbox is full. @param fill void(Item*), sets all of an item, new or used.
+  /// One thread posts.
+  template <typename Fill>
+  void Post(Fill fill) {
+    Wait(&room_);
+    fill(&items_[num_posted_ % items_.size()]);
+    ++num_posted_;
+    sem_post(&posted_);
+  }
+
+  /// What delivering took since it was asked for last. [s]
+  double TakeDeliveryTime() { return 1e-9 * static_cast<double>(delivery_time_.exchange(0)); }
+
+ private:
+  static void Wait(sem_t* semaphore) {
+    while (sem_wait(semaphore) != 0) {  // a signal came between
+    }
+  }
+
+  void Work() {
+    std::size_t num_delivered = 0;
+    while (true) {
+      Wait(&posted_);
+      if (num_delivered == num_posted_ && stopping_) return;
+      const auto begin = std::chrono::steady_clock::now();
+      deliver_(items_[num_delivered % items_.size()]);
+      ++num_delivered;
+      sem_post(&room_);
+      const std::chrono::nanoseconds time = std::chrono::steady_clock::now() - begin;
+      delivery_time_ += time.count();
+    }
+  }
+
+  std::function<void(const Item&)> deliver_;
+  std::vector<Item> items_;  // a ring
+  sem_t room_{}, posted_{};
+  std::atomic<std::size_t> num_posted_{0};
+  std::atomic<std::chrono::nanoseconds::rep> delivery_time_{0};  // [ns]
+  std::atomic<bool> stopping_{false};
+  std::thread thread_;
+};
+
+}  // namespace vacuum_gripper_sim
