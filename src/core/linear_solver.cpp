@@ -35,13 +35,15 @@ bool LinearSolver::Compute() {
   const bool old = iterations_ > 0 && step_ - factorized_step_ + 1 >= parameters_.refactor_interval;
   const bool due = old || WornOut(parameters_.max_iterations);
   const bool worth_taking = old || WornOut(kTakingCost);
+  // In vain, before a factorisation after all: a cup that moves so fast most likely still does.
+  const bool gave_up = iterations_before_ > 0;
   ++step_;
   iterations_since_ += iterations_;
   iterations_ = 0;
   iterations_before_ = 0;
   factorizations_ = 0;
 
-  bool good = usable_;
+  bool good = usable_ && !gave_up;
   switch (parameters_.method) {
     case LinearSolverMethod::kDirect:
       good = false;

@@ -227,6 +227,14 @@ TEST(LinearSolver, GivesUpWhereAFactorisationIsTooOld) {
   ASSERT_TRUE(solver.Renew());
   EXPECT_TRUE(solver.current());
   EXPECT_LT((block.Dense() * Solve(b, block.system(), &solver) - b).norm(), 1e-9 * b.norm());
+
+  // The next step does not try; the one after it does.
+  block.Bend(0.01);
+  ASSERT_TRUE(solver.Compute());
+  EXPECT_FALSE(solver.old());
+  block.Bend(0.01);
+  ASSERT_TRUE(solver.Compute());
+  EXPECT_TRUE(solver.old());
 }
 
 // A single-precision factor is never exact, and renewing it makes one that is.

@@ -25,7 +25,7 @@ namespace vacuum_gripper_sim {
  steps if they iterate. kConjugateGradient then begins one and spreads it over as many steps, so
  that no step takes much longer than others. kAsynchronous has a second thread factorise one A after
  the other and takes over what is due; how old its factorisation is depends on the threads' speed.
- Where the iterations of a step do not end, its A is factorised at once. */
+ Where the iterations of a step do not end, its A is factorised at once, and the next step's too. */
 class LinearSolver {
  public:
   /// @param system Its A_ff is the matrix; must outlive this.
