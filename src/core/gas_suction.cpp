@@ -69,6 +69,7 @@ AirMemory GasSuction::AtRest(const Eigen::Matrix3Xd& x_W, const std::vector<bool
   }
   air.gas = network_.AtAmbient(air.volume);
   air.compliance.assign(num_cups, 0.0);
+  air.swept.assign(num_cups, false);
   air.growth.assign(num_cups, 0.0);
   air.leaks.resize(num_cups);
   air.slope.assign(num_cups, -1.0);
@@ -157,12 +158,13 @@ double GasSuction::OpenVolume(std::size_t cup, const Eigen::Matrix3Xd& x_W,
 }
 
 /// Where nothing closes a cavity it ends where the step finds it to; air beyond is the ambient's.
+/// One that closed in the last step, maybe with a snap, begins with what that step left in it.
 void GasSuction::MeasureOpenCups(const Eigen::Matrix3Xd& x_W, const ContactStage& stage,
                                  GripState* state) {
   AirMemory& air = state->air;
   exchanged_.assign(air.volume.size(), 0.0);
   for (std::size_t cup = 0; cup < air.volume.size(); ++cup) {
-    if (IsClosed(cup, *state)) continue;
+    if (IsClosed(cup, *state) && air.swept[cup]) continue;
     const double pressure = air.gas.pressure(cup);
     const double volume =
         OpenVolume(cup, x_W, cavity_.area_vectors(), stage, state->classification);
@@ -250,6 +252,7 @@ void GasSuction::Report(double setpoint, double h, const SuctionSolution& soluti
     flows_.leak_area[cup] =
         leaks_[cup].EquivalentArea(ambient, std::min(ambient - kLittle, gas_.pressure[cup]));
 
+    air.swept[cup] = IsClosed(cup, *state);
     const double begin = state->cups[cup].pressure;
     air.growth[cup] = volume_[cup] - air.volume[cup] - compliance_[cup] * (pressure_[cup] - begin);
     air.slope[cup] = searches_[cup].slope();

@@ -28,6 +28,7 @@ struct AirMemory {
                                    ///< what its mesh resolves. [m^3]
   std::vector<double> compliance;  ///< dV/dp of the cups. [m^3/Pa]
   std::vector<double> growth;      ///< Of the volumes in the last step, at constant pressure. [m^3]
+  std::vector<bool> swept;         ///< Closed as the last step began: `volume` followed the motion.
   // What the last step found on its way to the pressures.
   std::vector<CupLeak> leaks;
   std::vector<double> slope;  ///< See PressureSearch. [-]
