@@ -83,6 +83,7 @@ void EliminatedColumns::AddTimes(double factor, const Eigen::Ref<const Eigen::Ve
 }
 
 /// In double precision whatever Y's: contacts at one node differ by less than single rounding.
+// NOLINTNEXTLINE(performance-unnecessary-value-param): a view that is written through
 void EliminatedColumns::Gram(Eigen::Ref<Eigen::MatrixXd> gram) const {
   Eigen::Map<Eigen::MatrixXd> sorted = sorted_.Shape(num_columns(), num_columns());
   sorted.setZero();
@@ -104,6 +105,7 @@ void EliminatedColumns::Gram(Eigen::Ref<Eigen::MatrixXd> gram) const {
 }
 
 void EliminatedColumns::TransposeTimes(const EliminatedColumns& other,
+                                       // NOLINTNEXTLINE(performance-unnecessary-value-param)
                                        Eigen::Ref<Eigen::MatrixXd> product) const {
   Eigen::Map<Eigen::MatrixXd> sorted = sorted_.Shape(num_columns(), other.num_columns());
   sorted.setZero();

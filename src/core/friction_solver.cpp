@@ -192,30 +192,30 @@ McpStatistics FrictionSolver::SolveTogether(const ContactCompliance& W, const Ve
 }
 
 /// Contacts of a group that feels no other.
-McpStatistics FrictionSolver::SolveAlone(const ContactCompliance& W, std::size_t index,
+McpStatistics FrictionSolver::SolveAlone(const ContactCompliance& W, std::size_t group,
                                          const VectorXd& delta,
                                          const std::vector<ContactRows>& rows,
                                          const ContactParameters& parameters, VectorXd* lambda) {
-  const ContactCompliance::Group& group = W.groups[index];
+  const ContactCompliance::Group& block = W.groups[group];
   rows_alone_.clear();  // counted from the group's first
   bool has_friction = false;
   for (const ContactRows& contact : rows) {
-    if (contact.normal < group.first || contact.normal >= group.first + group.size()) continue;
-    rows_alone_.push_back({contact.normal - group.first, contact.friction});
+    if (contact.normal < block.first || contact.normal >= block.first + block.size()) continue;
+    rows_alone_.push_back({contact.normal - block.first, contact.friction});
     has_friction = has_friction || contact.has_tangents();
   }
-  delta_alone_ = delta.segment(group.first, group.size());
-  lambda_alone_ = lambda->segment(group.first, group.size());
+  delta_alone_ = delta.segment(block.first, block.size());
+  lambda_alone_ = lambda->segment(block.first, block.size());
   McpStatistics statistics;
   if (has_friction) {
     alone_.groups.resize(1);
-    alone_.groups[0].C = group.C;
-    alone_.U.resize(group.size(), 0);
+    alone_.groups[0].C = block.C;
+    alone_.U.resize(block.size(), 0);
     statistics = SolveTogether(alone_, delta_alone_, rows_alone_, parameters, &lambda_alone_);
   } else {
-    statistics = without_friction_.Solve(group.C, delta_alone_, parameters, &lambda_alone_);
+    statistics = without_friction_.Solve(block.C, delta_alone_, parameters, &lambda_alone_);
   }
-  lambda->segment(group.first, group.size()) = lambda_alone_;
+  lambda->segment(block.first, block.size()) = lambda_alone_;
   return statistics;
 }
 

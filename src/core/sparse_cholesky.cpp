@@ -122,44 +122,44 @@ bool SparseCholesky::EliminateFront(const Supernode& front, const Eigen::SparseM
 
 template <typename Scalar>
 void SparseCholesky::Eliminate(const Numbers<Scalar>& numbers, const VectorXd& b,
-                               VectorXd* eliminated) const {
-  auto y = numbers.solution.Shape(size_);
+                               VectorXd* y) const {
+  auto z = numbers.solution.Shape(size_);
   for (std::size_t k = 0; k < node_at_.size(); ++k) {
-    y.template segment<3>(3 * static_cast<Index>(k)) =
+    z.template segment<3>(3 * static_cast<Index>(k)) =
         b.segment<3>(3 * node_at_[k]).template cast<Scalar>();
   }
   auto work = numbers.below.Shape(largest_front_);
   for (const Supernode& front : supernodes_) {
     const ConstPanel<Scalar> F(numbers.factor.data() + front.offset, 3 * front.num_rows(),
                                3 * front.width);
-    auto own = y.segment(3 * front.first, 3 * front.width);
+    auto own = z.segment(3 * front.first, 3 * front.width);
     F.topRows(F.cols()).template triangularView<Eigen::Lower>().solveInPlace(own);
     if (front.num_below() == 0) continue;
     auto below = work.head(3 * front.num_below());
     below.noalias() = F.bottomRows(F.rows() - F.cols()) * own;
     for (int r = 0; r < front.num_below(); ++r) {
-      y.template segment<3>(3 * front.rows[static_cast<std::size_t>(front.width + r)]) -=
+      z.template segment<3>(3 * front.rows[static_cast<std::size_t>(front.width + r)]) -=
           below.template segment<3>(3 * r);
     }
   }
-  *eliminated = y.template cast<double>();
+  *y = z.template cast<double>();
 }
 
 template <typename Scalar>
-void SparseCholesky::BackSubstitute(const Numbers<Scalar>& numbers, const VectorXd& eliminated,
+void SparseCholesky::BackSubstitute(const Numbers<Scalar>& numbers, const VectorXd& y,
                                     VectorXd* x) const {
-  auto y = numbers.solution.Shape(size_);
-  y = eliminated.template cast<Scalar>();
+  auto z = numbers.solution.Shape(size_);
+  z = y.template cast<Scalar>();
   auto work = numbers.below.Shape(largest_front_);
   for (auto front = supernodes_.rbegin(); front != supernodes_.rend(); ++front) {
     const ConstPanel<Scalar> F(numbers.factor.data() + front->offset, 3 * front->num_rows(),
                                3 * front->width);
-    auto own = y.segment(3 * front->first, 3 * front->width);
+    auto own = z.segment(3 * front->first, 3 * front->width);
     if (front->num_below() > 0) {
       auto below = work.head(3 * front->num_below());
       for (int r = 0; r < front->num_below(); ++r) {
         below.template segment<3>(3 * r) =
-            y.template segment<3>(3 * front->rows[static_cast<std::size_t>(front->width + r)]);
+            z.template segment<3>(3 * front->rows[static_cast<std::size_t>(front->width + r)]);
       }
       own.noalias() -= F.bottomRows(F.rows() - F.cols()).transpose() * below;
     }
@@ -168,7 +168,7 @@ void SparseCholesky::BackSubstitute(const Numbers<Scalar>& numbers, const Vector
   x->resize(size_);
   for (std::size_t k = 0; k < node_at_.size(); ++k) {
     x->segment<3>(3 * node_at_[k]) =
-        y.template segment<3>(3 * static_cast<Index>(k)).template cast<double>();
+        z.template segment<3>(3 * static_cast<Index>(k)).template cast<double>();
   }
 }
 
