@@ -5,9 +5,6 @@
 #include <cstddef>
 #include <utility>
 
-#include "vacuum_gripper_sim/core/background_factorization.h"
-#include "vacuum_gripper_sim/core/spread_factorization.h"
-
 namespace vacuum_gripper_sim {
 namespace {
 
@@ -23,11 +20,8 @@ LinearSolver::LinearSolver(const LinearSolverParameters& parameters, ImplicitEul
     : parameters_(parameters), system_(system) {
   factorization_.Analyze(system->matrix().pattern());
   if (parameters.method == LinearSolverMethod::kAsynchronous) {
-    pending_ = std::make_unique<BackgroundFactorization>(factorization_, system->matrix(),
-                                                         parameters.precision);
-  } else if (parameters.method == LinearSolverMethod::kConjugateGradient) {
-    pending_ = std::make_unique<SpreadFactorization>(
-        factorization_, system->matrix(), parameters.precision, parameters.refactor_interval);
+    background_ = std::make_unique<BackgroundFactorization>(factorization_, system->matrix(),
+                                                            parameters.precision);
   }
 }
 
@@ -49,35 +43,34 @@ bool LinearSolver::Compute() {
       good = false;
       break;
     case LinearSolverMethod::kConjugateGradient:
-      good = GoOnWithPending(due, true) && good;
+      good = good && !due;
       break;
     case LinearSolverMethod::kAsynchronous:
-      good = GoOnWithPending(true, worth_taking) && good;
+      good = ExchangeWithBackground(worth_taking) && good;
       break;
   }
   return good || Renew();
 }
 
-/// Once the pending factorisation is finished, takes it, if that is worth it; starts another one
-/// with this step's A. @returns false if it came upon an A that was not positive definite.
-bool LinearSolver::GoOnWithPending(bool worth_starting, bool worth_taking) {
-  using Status = PendingFactorization::Status;
+/// Once the second thread has finished, takes the result, if that is worth it, and hands over this
+/// step's A. @returns false if it came upon an A that was not positive definite.
+bool LinearSolver::ExchangeWithBackground(bool worth_taking) {
+  using Status = BackgroundFactorization::Status;
   bool positive_definite = true;
-  pending_->Advance();
-  if (pending_->status() == Status::kDone) {
-    SparseCholesky* const finished = pending_->Finish();
+  if (background_->status() == Status::kDone) {
+    SparseCholesky* const finished = background_->Finish();
     positive_definite = finished != nullptr;
     // A step that could not wait may have made a newer one.
-    if (positive_definite && worth_taking && pending_step_ > factorized_step_) {
+    if (positive_definite && worth_taking && background_step_ > factorized_step_) {
       std::swap(factorization_, *finished);
-      factorized_step_ = pending_step_;
+      factorized_step_ = background_step_;
       iterations_since_ = 0;
       ++generation_;
     }
   }
-  if (worth_starting && pending_->status() == Status::kIdle) {
-    pending_->Start(system_->linearization());
-    pending_step_ = step_;
+  if (background_->status() == Status::kIdle) {
+    background_->Start(system_->linearization());
+    background_step_ = step_;
   }
   return positive_definite;
 }
@@ -107,7 +100,6 @@ bool LinearSolver::Renew() {
 }
 
 bool LinearSolver::FactorizeWith(Precision precision) {
-  if (pending_) pending_->Abandon();
   usable_ = factorization_.Factorize(system_->A_ff(), precision);
   factorized_step_ = step_;
   iterations_since_ = 0;

@@ -39,37 +39,19 @@ void AddChild(const Scalar* update, const std::vector<int>& in_parent, std::size
 }  // namespace
 
 bool SparseCholesky::Factorize(const Eigen::SparseMatrix<double>& A, Precision precision) {
-  Begin(precision);
-  return ContinueTo(1.0, A) == Progress::kDone;
-}
-
-void SparseCholesky::Begin(Precision precision) {
   if (precision == Precision::kSingle && !std::holds_alternative<Numbers<float>>(numbers_)) {
     numbers_ = Numbers<float>();
   } else if (precision == Precision::kDouble &&
              !std::holds_alternative<Numbers<double>>(numbers_)) {
     numbers_ = Numbers<double>();
   }
-  std::visit(
-      [&](auto& numbers) {
-        numbers.factor.resize(factor_size_);
-        for (std::size_t i = 0; i < 2; ++i) numbers.updates[i].resize(update_sizes_[i]);
-      },
-      numbers_);
-  next_front_ = 0;
-}
-
-SparseCholesky::Progress SparseCholesky::ContinueTo(double share,
-                                                    const Eigen::SparseMatrix<double>& A) {
-  const auto go_on = [&](auto& numbers) {
-    for (; next_front_ < supernodes_.size(); ++next_front_) {
-      const Supernode& front = supernodes_[next_front_];
-      if (front.share_before >= share) return Progress::kPart;
-      if (!EliminateFront(front, A, &numbers)) return Progress::kNotPositiveDefinite;
-    }
-    return Progress::kDone;
+  const auto factorize = [&](auto& numbers) {
+    numbers.factor.resize(factor_size_);
+    for (std::size_t i = 0; i < 2; ++i) numbers.updates[i].resize(update_sizes_[i]);
+    return std::all_of(supernodes_.begin(), supernodes_.end(),
+                       [&](const Supernode& front) { return EliminateFront(front, A, &numbers); });
   };
-  return std::visit(go_on, numbers_);
+  return std::visit(factorize, numbers_);
 }
 
 VectorXd SparseCholesky::Solve(const VectorXd& b) const {

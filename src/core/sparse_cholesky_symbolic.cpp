@@ -119,7 +119,6 @@ void SparseCholesky::Analyze(const Eigen::SparseMatrix<double>& A) {
   MergeSmallSupernodes();
   LinkSupernodes();
   PlaceUpdates();
-  ShareArithmetic();
   MapEntries(A);
 }
 
@@ -263,20 +262,6 @@ void SparseCholesky::PlaceUpdates() {
       top[1 - own] = supernodes_[static_cast<std::size_t>(front.children.front())].update_offset;
     }
   }
-}
-
-void SparseCholesky::ShareArithmetic() {
-  constexpr double kPerEntry = 20.0;  // operations' worth of filling and adding an entry of a front
-  double total = 0.0;
-  for (Supernode& front : supernodes_) {
-    front.share_before = total;
-    const double rows = 3.0 * front.num_rows();
-    for (int column = 0; column < 3 * front.width; ++column) {
-      total += (rows - column) * (rows - column);
-    }
-    total += kPerEntry * rows * rows;
-  }
-  for (Supernode& front : supernodes_) front.share_before /= total;
 }
 
 void SparseCholesky::MapEntries(const Eigen::SparseMatrix<double>& A) {

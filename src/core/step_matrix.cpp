@@ -65,27 +65,26 @@ int StepMatrix::OffsetOf(int row, int column) const {
 
 template <typename Element, typename Law>
 void StepMatrix::AddElements(const std::vector<Element>& elements, const Law& law,
-                             const Linearization& linearization, std::size_t begin, std::size_t end,
-                             double* values) const {
+                             const Linearization& linearization, double* values) const {
   constexpr std::size_t kLanes = Pack::SizeAtCompileTime;
   const auto tangent_size = static_cast<std::size_t>(TangentSize(law));
   std::array<typename Law::Tangent, Element::kPoints> tangents;
   typename Element::Stiffness K_e;
-  std::size_t next_block = begin > 0 ? blocks_end_[begin - 1] : 0;
-  for (std::size_t e = begin; e < end; ++e) {
+  auto block = blocks_.begin();
+  for (std::size_t e = 0; e < elements.size(); ++e) {
     for (std::size_t q = 0; q < Element::kPoints; ++q) {
       const std::size_t point = e * Element::kPoints + q;
       tangents[q] = TangentAt(law, linearization.tangents.data() + point / kLanes * tangent_size,
                               static_cast<int>(point % kLanes));
     }
     ElementStiffness(elements[e], law, tangents, &K_e);
-    for (; next_block < blocks_end_[e]; ++next_block) {
-      const Block& block = blocks_[next_block];
+    const auto end = blocks_.begin() + static_cast<std::ptrdiff_t>(blocks_end_[e]);
+    for (; block != end; ++block) {
       const Eigen::Matrix3d K_ab =
-          linearization.stiffness_factor * Element::Block(K_e, block.a, block.b);
+          linearization.stiffness_factor * Element::Block(K_e, block->a, block->b);
       for (int j = 0; j < 3; ++j) {
-        double* const column = values + block.offsets[static_cast<std::size_t>(j)];
-        const int first = block.diagonal ? j : 0;
+        double* const column = values + block->offsets[static_cast<std::size_t>(j)];
+        const int first = block->diagonal ? j : 0;
         for (int i = first; i < 3; ++i) column[i - first] += K_ab(i, j);
       }
     }
@@ -94,23 +93,11 @@ void StepMatrix::AddElements(const std::vector<Element>& elements, const Law& la
 
 void StepMatrix::Assemble(const Linearization& linearization,
                           Eigen::SparseMatrix<double>* A) const {
-  SetMasses(linearization, A);
-  AddElements(linearization, 0, num_elements(), A);
-}
-
-void StepMatrix::AddElements(const Linearization& linearization, std::size_t begin, std::size_t end,
-                             Eigen::SparseMatrix<double>* A) const {
-  std::visit(
-      [&](const auto& elements, const auto& law) {
-        AddElements(elements, law, linearization, begin, end, A->valuePtr());
-      },
-      body_->elements(), body_->law());
-}
-
-void StepMatrix::SetMasses(const Linearization& linearization,
-                           Eigen::SparseMatrix<double>* A) const {
   double* const values = A->valuePtr();
   std::fill_n(values, A->nonZeros(), 0.0);
+  std::visit([&](const auto& elements,
+                 const auto& law) { AddElements(elements, law, linearization, values); },
+             body_->elements(), body_->law());
   for (std::size_t k = 0; k < mass_nodes_.size(); ++k) {
     for (std::size_t i = 0; i < 3; ++i) {
       values[mass_offsets_[3 * k + i]] +=

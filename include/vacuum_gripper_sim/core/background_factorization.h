@@ -6,7 +6,6 @@
 #include <mutex>
 #include <thread>
 
-#include "vacuum_gripper_sim/core/pending_factorization.h"
 #include "vacuum_gripper_sim/core/sparse_cholesky.h"
 #include "vacuum_gripper_sim/core/step_matrix.h"
 
@@ -17,20 +16,26 @@ namespace vacuum_gripper_sim {
 
  [16] H. Courtecuisse et al., "Asynchronous preconditioners for efficient solving of non-linear
    deformations", VRIPHYS 2010. */
-class BackgroundFactorization : public PendingFactorization {
+class BackgroundFactorization {
  public:
   /// @param analyzed Gives the structure of all matrices to come. @param matrix Assembles them;
   /// must outlive this.
   BackgroundFactorization(const SparseCholesky& analyzed, const StepMatrix& matrix,
                           Precision precision);
   /// Waits for a factorisation that is under way.
-  ~BackgroundFactorization() override;
+  ~BackgroundFactorization();
   BackgroundFactorization(const BackgroundFactorization&) = delete;
   BackgroundFactorization& operator=(const BackgroundFactorization&) = delete;
 
-  Status status() const override;
-  void Start(const Linearization& linearization) override;
-  SparseCholesky* Finish() override;
+  enum class Status { kIdle, kBusy, kDone };
+  Status status() const;
+
+  /// Copies what A is made of and starts. @pre status() is kIdle.
+  void Start(const Linearization& linearization);
+  /// Ends a factorisation. @pre status() is kDone. @returns it, the caller's until the next Start()
+  /// and to be exchanged at will; nothing if A was not positive definite.
+  /// @throws what the other thread did.
+  SparseCholesky* Finish();
 
  private:
   void Run();

@@ -5,11 +5,11 @@
 #include <memory>
 #include <vector>
 
+#include "vacuum_gripper_sim/core/background_factorization.h"
 #include "vacuum_gripper_sim/core/constraint_operator.h"
 #include "vacuum_gripper_sim/core/implicit_euler.h"
 #include "vacuum_gripper_sim/core/linearized_contacts.h"
 #include "vacuum_gripper_sim/core/parameters.h"
-#include "vacuum_gripper_sim/core/pending_factorization.h"
 #include "vacuum_gripper_sim/core/sparse_cholesky.h"
 #include "vacuum_gripper_sim/core/system_vector.h"
 
@@ -22,10 +22,10 @@ namespace vacuum_gripper_sim {
  factorisation preconditions conjugate gradients, so that the answer depends on their tolerance and
  not on the factorisation's age. A new one is due when a step's iterations cost more than the
  average step since, the factorisation's own cost shared among them, and after `refactor_interval`
- steps if they iterate. kConjugateGradient then begins one and spreads it over as many steps, so
- that no step takes much longer than others. kAsynchronous has a second thread factorise one A after
- the other and takes over what is due; how old its factorisation is depends on the threads' speed.
- Where the iterations of a step do not end, its A is factorised at once, and the next step's too. */
+ steps if they iterate. kConjugateGradient makes it then and there. kAsynchronous has a second
+ thread factorise one A after the other and takes over what is due; how old its factorisation is
+ depends on the threads' speed. Where the iterations of a step do not end, its A is factorised at
+ once, and the next step's too. */
 class LinearSolver {
  public:
   /// @param system Its A_ff is the matrix; must outlive this.
@@ -86,7 +86,7 @@ class LinearSolver {
   bool WornOut(int cost) const;
   bool FactorizeWith(Precision precision);
   void Precondition(const ConstraintOperator& constraints, bool any_held, Eigen::VectorXd* lambda);
-  bool GoOnWithPending(bool worth_starting, bool worth_taking);
+  bool ExchangeWithBackground(bool worth_taking);
 
   LinearSolverParameters parameters_;
   ImplicitEuler* system_;
@@ -95,7 +95,7 @@ class LinearSolver {
   int generation_{0};
   std::int64_t step_{0};
   std::int64_t factorized_step_{0};   // whose A factorization_ belongs to
-  std::int64_t pending_step_{0};      // whose A pending_ has
+  std::int64_t background_step_{0};   // whose A the second thread has
   std::int64_t iterations_since_{0};  // factorized_step_, without the current step
   int iterations_{0};
   int iterations_before_{0};  // of the step, with factorisations given up since
@@ -105,7 +105,7 @@ class LinearSolver {
   SystemVector y_, z_;       // of r_ in the preconditioner, half way and at its end
   LinearizedContacts held_;  // of factorization_
   Eigen::VectorXd gap_changes_, mu_;
-  std::unique_ptr<PendingFactorization> pending_;  // not for kDirect
+  std::unique_ptr<BackgroundFactorization> background_;  // kAsynchronous only
 };
 
 }  // namespace vacuum_gripper_sim

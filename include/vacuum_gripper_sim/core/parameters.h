@@ -41,8 +41,7 @@ struct LinearSolverParameters {
                                             ///< weight makes of |b| if that is more. [-] > 0
   int max_iterations{10};    ///< CG: a step that needs more factorises its A after all; about what
                              ///< that costs, in iterations. >= 1
-  int refactor_interval{5};  ///< Steps after which a factorisation is old, if they iterate;
-                             ///< kConjugateGradient spreads the next one over as many. >= 1
+  int refactor_interval{5};  ///< Steps after which a factorisation is old, if they iterate. >= 1
 };
 
 enum class ContactSolverMethod { kGaussSeidel, kActiveSet };

@@ -45,13 +45,6 @@ class SparseCholesky {
   /// then.
   bool Factorize(const Eigen::SparseMatrix<double>& A, Precision precision = Precision::kDouble);
 
-  /// Starts a factorisation that ContinueTo() goes on with.
-  void Begin(Precision precision);
-  enum class Progress { kPart, kDone, kNotPositiveDefinite };
-  /// Goes on until about that share of the whole factorisation's arithmetic is done.
-  /// @param share From 1 on: to the end. @param A The same in every call after Begin().
-  Progress ContinueTo(double share, const Eigen::SparseMatrix<double>& A);
-
   /// Of the last factorisation.
   Precision precision() const {
     return numbers_.index() == 0 ? Precision::kDouble : Precision::kSingle;
@@ -83,7 +76,6 @@ class SparseCholesky {
     std::size_t offset{
         0};  ///< Of the front's panel in Numbers::factor: 3 #rows by 3 width, column-major.
     std::size_t entries_begin{0}, entries_end{0};  ///< Of entries_: A's values that enter here.
-    double share_before{0.0};  ///< Of the arithmetic, that of the supernodes before this one. [-]
 
     int num_rows() const { return static_cast<int>(rows.size()); }
     int num_below() const { return num_rows() - width; }
@@ -109,7 +101,6 @@ class SparseCholesky {
   void MergeSmallSupernodes();
   void LinkSupernodes();
   void PlaceUpdates();
-  void ShareArithmetic();
   void MapEntries(const Eigen::SparseMatrix<double>& A);
   template <typename Scalar>
   std::vector<Scalar>& LayOutColumns(const std::vector<NodeColumn>& B, EliminatedColumns* Y) const;
@@ -138,7 +129,6 @@ class SparseCholesky {
   std::vector<std::pair<int, int>> entries_;  // (value of A, place in the panel), by supernode
   std::size_t factor_size_{0};
   std::array<std::size_t, 2> update_sizes_{};
-  std::size_t next_front_{0};  // of a factorisation under way
   std::variant<Numbers<double>, Numbers<float>> numbers_;
   mutable std::vector<int> block_of_;  // of the columns at hand, by supernode; -1: not reached
 };

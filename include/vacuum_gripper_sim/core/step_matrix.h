@@ -31,13 +31,6 @@ class StepMatrix {
   /// @param[in,out] A A copy of pattern(); its values are replaced. [kg]
   void Assemble(const Linearization& linearization, Eigen::SparseMatrix<double>* A) const;
 
-  // The same bit by bit: first the masses, then the elements, in any portions.
-  std::size_t num_elements() const { return blocks_end_.size(); }
-  void SetMasses(const Linearization& linearization, Eigen::SparseMatrix<double>* A) const;
-  /// Of elements [begin, end).
-  void AddElements(const Linearization& linearization, std::size_t begin, std::size_t end,
-                   Eigen::SparseMatrix<double>* A) const;
-
  private:
   /// A 3 by 3 block of an element's matrix that A has a place for.
   struct Block {
@@ -48,8 +41,7 @@ class StepMatrix {
 
   template <typename Element, typename Law>
   void AddElements(const std::vector<Element>& elements, const Law& law,
-                   const Linearization& linearization, std::size_t begin, std::size_t end,
-                   double* values) const;
+                   const Linearization& linearization, double* values) const;
   int OffsetOf(int row, int column) const;
 
   const ElasticBody* body_;
