@@ -158,7 +158,7 @@ Eigen::Matrix3Xd PaperPipeline::Step(const StepProblem& problem, PaperTimings* t
   Eigen::VectorXd lambda = Eigen::VectorXd::Zero(n);
   {
     const ThreadStopwatch stopwatch(&timings->solve);
-    SolveContacts(W, delta, PaperContact(), &lambda);
+    McpSolver().Solve(W, delta, PaperContact(), &lambda);
   }
 
   // 5) Motion correction.

@@ -227,7 +227,7 @@ McpStatistics FrictionSolver::Solve(const ContactCompliance& W, const VectorXd& 
   for (const ContactRows& contact : rows) covered += contact.size();
   if (W.num_rows() != size || lambda->size() != size || covered != size) {
     throw std::invalid_argument(
-        "SolveContactGroups: W, delta, lambda and the contacts' rows must agree in size");
+        "FrictionSolver: W, delta, lambda and the contacts' rows must agree in size");
   }
   if (W.coupled()) return SolveTogether(W, delta, rows, parameters, lambda);
   McpStatistics statistics;
@@ -238,12 +238,6 @@ McpStatistics FrictionSolver::Solve(const ContactCompliance& W, const VectorXd& 
     statistics.residual = std::max(statistics.residual, of_group.residual);
   }
   return statistics;
-}
-
-McpStatistics SolveContactGroups(const ContactCompliance& W, const VectorXd& delta,
-                                 const std::vector<ContactRows>& rows,
-                                 const ContactParameters& parameters, VectorXd* lambda) {
-  return FrictionSolver().Solve(W, delta, rows, parameters, lambda);
 }
 
 }  // namespace vacuum_gripper_sim

@@ -111,16 +111,11 @@ McpStatistics McpSolver::SolveByActiveSet(const Eigen::MatrixXd& W, const Eigen:
 McpStatistics McpSolver::Solve(const Eigen::MatrixXd& W, const Eigen::VectorXd& delta,
                                const ContactParameters& parameters, Eigen::VectorXd* lambda) {
   if (W.rows() != delta.size() || W.cols() != delta.size() || lambda->size() != delta.size()) {
-    throw std::invalid_argument("SolveContacts: W, delta and lambda must have the same size");
+    throw std::invalid_argument("McpSolver: W, delta and lambda must have the same size");
   }
   return parameters.method == ContactSolverMethod::kActiveSet
              ? SolveByActiveSet(W, delta, parameters, lambda)
              : SolveByGaussSeidel(W, delta, parameters, lambda);
-}
-
-McpStatistics SolveContacts(const Eigen::MatrixXd& W, const Eigen::VectorXd& delta,
-                            const ContactParameters& parameters, Eigen::VectorXd* lambda) {
-  return McpSolver().Solve(W, delta, parameters, lambda);
 }
 
 }  // namespace vacuum_gripper_sim

@@ -93,8 +93,7 @@ void VacuumGripperNode::Run() {
       diagnostics_.SetScheduling(SchedulingOfThisThread());
       ROS_WARN(
           "realtime_priority = %d is given up, scheduled normally from now on: for a second no "
-          "step "
-          "ended before the next was due, and others would have been kept from the core",
+          "step ended before the next was due, and others would have been kept from the core",
           parameters_.realtime_priority);
     }
     ros::getGlobalCallbackQueue()->callAvailable(wait);

@@ -67,9 +67,9 @@ TEST(FrictionSolver, BlockOnAPlaneSticksAndSlides) {
     problem.delta.resize(3);
     problem.delta << -2e-3, pushed * 2e-3, 0.0;
     VectorXd lambda = VectorXd::Zero(3);
-    EXPECT_TRUE(
-        SolveContactGroups(Alone(problem.W), problem.delta, problem.rows, parameters, &lambda)
-            .converged);
+    EXPECT_TRUE(FrictionSolver()
+                    .Solve(Alone(problem.W), problem.delta, problem.rows, parameters, &lambda)
+                    .converged);
     EXPECT_NEAR(lambda(0), 2.0, 1e-6);
     EXPECT_NEAR(lambda(1), pushed < 0.5 ? -0.8 : -1.0, 1e-6);
     EXPECT_NEAR(lambda(2), 0.0, 1e-6);
@@ -84,8 +84,8 @@ TEST(FrictionSolver, BothMethodsSatisfyTheLaws) {
       const Problem problem = RandomProblem(20, friction, seed);
       ContactParameters parameters;
       VectorXd newton = VectorXd::Zero(60);
-      const McpStatistics statistics =
-          SolveContactGroups(Alone(problem.W), problem.delta, problem.rows, parameters, &newton);
+      const McpStatistics statistics = FrictionSolver().Solve(Alone(problem.W), problem.delta,
+                                                              problem.rows, parameters, &newton);
       EXPECT_TRUE(statistics.converged);
       EXPECT_LE(statistics.iterations, 20);
       ExpectSolved(problem, newton, 1e-9);
@@ -93,9 +93,9 @@ TEST(FrictionSolver, BothMethodsSatisfyTheLaws) {
       parameters.method = ContactSolverMethod::kGaussSeidel;
       parameters.max_iterations = 10000;
       VectorXd sweeps = VectorXd::Zero(60);
-      EXPECT_TRUE(
-          SolveContactGroups(Alone(problem.W), problem.delta, problem.rows, parameters, &sweeps)
-              .converged);
+      EXPECT_TRUE(FrictionSolver()
+                      .Solve(Alone(problem.W), problem.delta, problem.rows, parameters, &sweeps)
+                      .converged);
       ExpectSolved(problem, sweeps, 1e-9);
       EXPECT_LT((newton - sweeps).norm(), 1e-3 * newton.norm());
     }
@@ -109,9 +109,9 @@ TEST(FrictionSolver, FrictionlessContactsAreThoseOfTheFrictionlessSolver) {
   VectorXd with = VectorXd::Zero(60);
   VectorXd without = VectorXd::Zero(60);
   ContactCompliance coupled = Alone(problem.W);
-  coupled.U.setZero(60, 1);  // keeps it from SolveContacts()
-  SolveContactGroups(coupled, problem.delta, problem.rows, ContactParameters(), &with);
-  SolveContacts(problem.W, problem.delta, ContactParameters(), &without);
+  coupled.U.setZero(60, 1);  // keeps it from McpSolver
+  FrictionSolver().Solve(coupled, problem.delta, problem.rows, ContactParameters(), &with);
+  McpSolver().Solve(problem.W, problem.delta, ContactParameters(), &without);
   EXPECT_LT((with - without).norm(), 1e-6 * without.norm());
 }
 
@@ -137,9 +137,10 @@ TEST(FrictionSolver, MoreForcesThanWaysToMove) {
   push << 0.3, 0.0, -1.0, 0.0, 0.0, 0.0;
   problem.delta = J * compliance.asDiagonal() * push;
   VectorXd lambda = VectorXd::Zero(12);
-  EXPECT_TRUE(SolveContactGroups(Alone(problem.W), problem.delta, problem.rows, ContactParameters(),
-                                 &lambda)
-                  .converged);
+  EXPECT_TRUE(
+      FrictionSolver()
+          .Solve(Alone(problem.W), problem.delta, problem.rows, ContactParameters(), &lambda)
+          .converged);
   EXPECT_LT((J.transpose() * lambda + push).norm(), 1e-5);
   ExpectSolved(problem, lambda, 1e-9);
 }
@@ -194,10 +195,12 @@ TEST(FrictionSolver, CoupledGroupsAreTheDenseProblem) {
         parameters.max_iterations = 100000;
         VectorXd dense = VectorXd::Zero(problem.delta.size());
         VectorXd grouped = dense;
-        EXPECT_TRUE(SolveContactGroups(Alone(problem.dense.W), problem.delta, problem.rows,
-                                       parameters, &dense)
-                        .converged);
-        EXPECT_TRUE(SolveContactGroups(problem.W, problem.delta, problem.rows, parameters, &grouped)
+        EXPECT_TRUE(
+            FrictionSolver()
+                .Solve(Alone(problem.dense.W), problem.delta, problem.rows, parameters, &dense)
+                .converged);
+        EXPECT_TRUE(FrictionSolver()
+                        .Solve(problem.W, problem.delta, problem.rows, parameters, &grouped)
                         .converged);
         ExpectSolved(problem.dense, grouped, 1e-10);
         EXPECT_LT((grouped - dense).norm(), 1e-5 * dense.norm());
@@ -214,8 +217,8 @@ TEST(FrictionSolver, GroupsThatNothingCouplesAreSolvedOneByOne) {
       for (Index i = 0; i < problem.delta.size(); ++i) problem.rows.push_back({i, 0.0});
     }
     VectorXd together = VectorXd::Zero(problem.delta.size());
-    const McpStatistics statistics =
-        SolveContactGroups(problem.W, problem.delta, problem.rows, ContactParameters(), &together);
+    const McpStatistics statistics = FrictionSolver().Solve(problem.W, problem.delta, problem.rows,
+                                                            ContactParameters(), &together);
     int iterations = 0;
     for (const ContactCompliance::Group& group : problem.W.groups) {
       const VectorXd delta = problem.delta.segment(group.first, group.size());
@@ -223,7 +226,7 @@ TEST(FrictionSolver, GroupsThatNothingCouplesAreSolvedOneByOne) {
       for (Index i = 0; i<group.size(); i += friction> 0.0 ? 3 : 1) rows.push_back({i, friction});
       VectorXd one = VectorXd::Zero(group.size());
       const McpStatistics of_one =
-          SolveContactGroups(Alone(group.C), delta, rows, ContactParameters(), &one);
+          FrictionSolver().Solve(Alone(group.C), delta, rows, ContactParameters(), &one);
       EXPECT_TRUE(of_one.converged);
       EXPECT_EQ(one, VectorXd(together.segment(group.first, group.size())));
       iterations = std::max(iterations, of_one.iterations);
@@ -235,8 +238,8 @@ TEST(FrictionSolver, GroupsThatNothingCouplesAreSolvedOneByOne) {
 
 TEST(FrictionSolver, RefusesRowsThatDoNotCoverW) {
   VectorXd lambda = VectorXd::Zero(3);
-  EXPECT_THROW(SolveContactGroups(Alone(MatrixXd::Identity(3, 3)), VectorXd::Zero(3), {{0, 0.0}},
-                                  ContactParameters(), &lambda),
+  EXPECT_THROW(FrictionSolver().Solve(Alone(MatrixXd::Identity(3, 3)), VectorXd::Zero(3),
+                                      {{0, 0.0}}, ContactParameters(), &lambda),
                std::invalid_argument);
 }
 

@@ -69,6 +69,20 @@ TEST(GasPassive, PressureTimesVolumeStaysWhileTheCupIsPulled) {
   }
 }
 
+// From 0.5 mm above the plate to 2 mm pressed within a step: what was between is not in the cup.
+TEST(GasPassive, ACupThatShutsWithinAStepBeginsWithWhatIsLeft) {
+  for (const char* const bell : {"linear_700", "quadratic_700"}) {
+    GripWorld world({Plate()}, kAbovePlate, Passive(), bell);
+    const double open = GeometricVolume(world);
+    world.MoveTo(Lifted(-0.002), 1.0, 0.0);
+    world.Wait(0.3, 0.0);
+    const double left = GeometricVolume(world);
+    EXPECT_LT(left, 0.85 * open);
+    EXPECT_NEAR(world.result().cavity_volume, left, 0.03 * left);
+    EXPECT_EQ(world.undone_steps, 0);
+  }
+}
+
 // N = p_0 (V_0 + V_d) of the press is all there is, whatever the lift: p = N / (V + V_d).
 TEST(GasPassive, WhatIsPressedOutMakesTheForce) {
   double last_force = 0.0, last_pressure = 0.0;

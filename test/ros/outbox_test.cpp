@@ -6,7 +6,9 @@
 #include <chrono>
 #include <cstddef>
 #include <future>
+#include <optional>
 #include <thread>
+#include <utility>
 #include <vector>
 
 namespace vacuum_gripper_sim {
@@ -29,37 +31,47 @@ TEST(Outbox, DeliversEverythingInOrderOnAnotherThread) {
   EXPECT_NE(thread, std::this_thread::get_id());
 }
 
-TEST(Outbox, PostingDoesNotWaitForADelivery) {
-  std::promise<void> go;
-  std::atomic<int> delivered{0};
-  {
-    Outbox<int> outbox(
-        [&, started = go.get_future().share()](int) {
-          started.wait();
-          ++delivered;
-        },
-        3);
-    for (int i = 0; i < 3; ++i) outbox.Post([&](int* item) { *item = i; });
-    EXPECT_EQ(delivered, 0);
-    go.set_value();
+/// Delivers nothing until it is let go.
+class HeldOutbox {
+ public:
+  explicit HeldOutbox(std::size_t capacity)
+      : outbox_(
+            std::in_place,
+            [this, let_go = let_go_.get_future().share()](int) {
+              let_go.wait();
+              ++delivered_;
+            },
+            capacity) {}
+
+  void Post(int count) {
+    for (int i = 0; i < count; ++i) outbox_->Post([&](int* item) { *item = i; });
   }
-  EXPECT_EQ(delivered, 3);  // what waited was delivered
+  void LetGo() { let_go_.set_value(); }
+  void End() { outbox_.reset(); }
+  int delivered() const { return delivered_; }
+
+ private:
+  std::promise<void> let_go_;
+  std::atomic<int> delivered_{0};
+  std::optional<Outbox<int>> outbox_;
+};
+
+TEST(Outbox, PostingDoesNotWaitForADelivery) {
+  HeldOutbox outbox(3);
+  outbox.Post(3);
+  EXPECT_EQ(outbox.delivered(), 0);
+  outbox.LetGo();
+  outbox.End();
+  EXPECT_EQ(outbox.delivered(), 3);  // what waited was delivered
 }
 
 TEST(Outbox, PostingToAFullOneWaitsForRoom) {
-  std::promise<void> go;
-  std::atomic<int> delivered{0};
-  Outbox<int> outbox(
-      [&, started = go.get_future().share()](int) {
-        started.wait();
-        ++delivered;
-      },
-      1);
+  HeldOutbox outbox(1);
   std::thread poster([&] {
-    for (int i = 0; i < 3; ++i) outbox.Post([&](int* item) { *item = i; });
-    EXPECT_GE(delivered, 2);  // there was room for the last one
+    outbox.Post(3);
+    EXPECT_GE(outbox.delivered(), 2);  // there was room for the last one
   });
-  go.set_value();
+  outbox.LetGo();
   poster.join();
 }
 

@@ -97,9 +97,4 @@ class FrictionSolver {
   Eigen::VectorXd delta_alone_, lambda_alone_;
 };
 
-/// A single solve. @see FrictionSolver::Solve().
-McpStatistics SolveContactGroups(const ContactCompliance& W, const Eigen::VectorXd& delta,
-                                 const std::vector<ContactRows>& rows,
-                                 const ContactParameters& parameters, Eigen::VectorXd* lambda);
-
 }  // namespace vacuum_gripper_sim

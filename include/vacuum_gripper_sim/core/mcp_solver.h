@@ -60,8 +60,4 @@ class McpSolver {
   Eigen::VectorXd forces_;  // N
 };
 
-/// A single solve. @see McpSolver::Solve().
-McpStatistics SolveContacts(const Eigen::MatrixXd& W, const Eigen::VectorXd& delta,
-                            const ContactParameters& parameters, Eigen::VectorXd* lambda);
-
 }  // namespace vacuum_gripper_sim
