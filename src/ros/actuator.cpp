@@ -12,6 +12,9 @@ namespace {
 
 constexpr double kQuaternionTolerance = 1e-3;  // Of the norm; what a rounded quaternion is off by.
 constexpr double kSmallestStride = 1.0 / 1024.0;
+constexpr double kShortestPeriod = 1.5;  // Of targets that are rarer than steps. [steps]
+constexpr double kPeriodsToTarget = 1.5;
+constexpr double kWeightOfNewest = 0.25;  // In the average period.
 
 Eigen::Isometry3d ToIsometry(const Eigen::Vector3d& position, const Eigen::Quaterniond& rotation) {
   Eigen::Isometry3d X = Eigen::Isometry3d::Identity();
@@ -42,11 +45,35 @@ void CheckFinite(const char* field, double value) {
 }  // namespace
 
 Actuator::Actuator(const Eigen::Isometry3d& X_WM, const MotionLimits& limits, double time_step)
-    : limits_(limits), time_step_(time_step), X_WM_(X_WM), X_WM_target_(X_WM) {}
+    : limits_(limits),
+      time_step_(time_step),
+      X_WM_(X_WM),
+      X_WM_target_(X_WM),
+      steps_since_target_(StepsThatEndAMotion()) {}
+
+/// After so many without a target the next one begins a motion.
+int Actuator::StepsThatEndAMotion() const {
+  return 1 + static_cast<int>(limits_.longest_command_period / time_step_);
+}
+
+void Actuator::SetTarget(const Eigen::Isometry3d& X_WM) {
+  X_WM_target_ = X_WM;
+  if (steps_since_target_ == 0) return;  // It replaces one that came in the same step.
+  if (steps_since_target_ >= StepsThatEndAMotion()) {
+    target_period_ = 0.0;
+  } else if (target_period_ == 0.0) {
+    target_period_ = steps_since_target_;
+  } else {
+    target_period_ += kWeightOfNewest * (steps_since_target_ - target_period_);
+  }
+  steps_to_target_ = target_period_ < kShortestPeriod ? 1.0 : kPeriodsToTarget * target_period_;
+  steps_since_target_ = 0;
+}
 
 void Actuator::JumpToTarget() {
   X_WM_ = X_WM_target_;
   stride_ = 1.0;
+  steps_to_target_ = 1.0;
 }
 
 Eigen::Isometry3d Actuator::NextPose() const {
@@ -57,7 +84,7 @@ Eigen::Isometry3d Actuator::NextPose() const {
   const double reach = limits_.max_speed * time_step_;
   const double turn = limits_.max_angular_speed * time_step_;
 
-  double fraction = 1.0;  // Translation and rotation arrive together.
+  double fraction = 1.0 / steps_to_target_;  // Translation and rotation arrive together.
   if (way.norm() > reach) fraction = std::min(fraction, reach / way.norm());
   if (angle > turn) fraction = std::min(fraction, turn / angle);
   fraction *= stride_;
@@ -68,10 +95,13 @@ Eigen::Isometry3d Actuator::NextPose() const {
 void Actuator::OnStep(const Eigen::Isometry3d& X_WM, bool undone) {
   X_WM_ = X_WM;
   stride_ = undone ? std::max(kSmallestStride, 0.5 * stride_) : std::min(1.0, 2.0 * stride_);
+  steps_to_target_ = std::max(1.0, steps_to_target_ - 1.0);
+  steps_since_target_ = std::min(steps_since_target_ + 1, StepsThatEndAMotion());
 }
 
 bool Actuator::IsBehind(double distance) const {
-  return (X_WM_target_.translation() - X_WM_.translation()).norm() > distance;
+  const double reach = (steps_to_target_ - 1.0) * limits_.max_speed * time_step_;
+  return (X_WM_target_.translation() - X_WM_.translation()).norm() > reach + distance;
 }
 
 Eigen::Isometry3d ResolvePoseCommand(const geometry_msgs::PoseStamped& command,

@@ -41,6 +41,7 @@ constexpr Required kRequired[] = {
     {"", "initial_rotation"},
     {"", "max_speed"},
     {"", "max_angular_speed"},
+    {"", "longest_command_period"},
     {"", "gravity"},
     {"", "friction"},
     {"regulator", "default_pressure"},
@@ -127,6 +128,15 @@ double GetPositive(ParameterReader* reader, const std::string& key, double maxim
   if (!(value > 0.0 && value <= maximum)) {
     throw std::invalid_argument("parameter " + reader->Name(key) + " = " + Format(value) +
                                 " must be > 0 and <= " + Format(maximum));
+  }
+  return value;
+}
+
+double GetNonNegative(ParameterReader* reader, const std::string& key, double maximum) {
+  const double value = reader->GetDouble(key);
+  if (!(value >= 0.0 && value <= maximum)) {
+    throw std::invalid_argument("parameter " + reader->Name(key) + " = " + Format(value) +
+                                " must be >= 0 and <= " + Format(maximum));
   }
   return value;
 }
@@ -258,6 +268,8 @@ NodeParameters ReadNodeParameters(const YAML::Node& node, const std::string& cup
       reader.GetRotation("initial_rotation", Eigen::Quaterniond::Identity()).toRotationMatrix();
   parameters.motion_limits.max_speed = GetPositive(&reader, "max_speed", 100.0);
   parameters.motion_limits.max_angular_speed = GetPositive(&reader, "max_angular_speed", 1.0e+3);
+  parameters.motion_limits.longest_command_period =
+      GetNonNegative(&reader, "longest_command_period", 10.0);
 
   parameters.cup = ReadCup(reader.GetNode("cup"), cup_directory, cup_directory);
   parameters.simulator = ReadSimulatorParameters(&reader);

@@ -184,7 +184,9 @@ void VacuumGripperNode::FollowMountFrame() {
   const std::string& frame = parameters_.mount_frame;
   try {
     ros::Time stamp;
-    actuator_.SetTarget(LookUpFrame(frame, parameters_.world_frame, tf_buffer_, &stamp));
+    const Eigen::Isometry3d X_WM = LookUpFrame(frame, parameters_.world_frame, tf_buffer_, &stamp);
+    if (stamp.isZero() || stamp != mount_frame_stamp_) actuator_.SetTarget(X_WM);
+    mount_frame_stamp_ = stamp;
     if (IsStale(stamp) && throttle_.Pass("mount stale")) {
       ROS_WARN("tf has not updated mount_frame '%s' for a while: the mount stays where it was last",
                frame.c_str());
