@@ -38,19 +38,23 @@ Zone ZoneOf(const std::vector<int>& neighbours, std::size_t point, const std::ve
 /** Grows both basins at once, always by the point of the largest phi at their shores (Prim's
  algorithm with two roots): before any point below some level is taken, all that the seeds reach
  above it are. So the widest way between the seeds crosses from one basin to the other at an edge
- whose two bottlenecks are at least its own. */
+ whose two bottlenecks are at least its own. Of the ways to a point that are no narrower than the
+ point, the one found first counts: it waits on a shore once. */
 void Classifier::Flood(const std::vector<double>& phi, const std::vector<EdgeWay>& ways) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   basin_.assign(phi.size(), Basin::kNone);
   bottleneck_.assign(phi.size(), kInfinity);
+  found_.assign(phi.size(), false);
   shores_.clear();
   int order = 0;
-  for (const int point : surface_->port) {
-    PushShore({phi[static_cast<std::size_t>(point)], order++, point, -1, Basin::kPort});
-  }
-  for (const int point : surface_->border) {
-    PushShore({phi[static_cast<std::size_t>(point)], order++, point, -1, Basin::kBorder});
-  }
+  const auto find = [&](int point, double width, int parent, Basin basin) {
+    const auto i = static_cast<std::size_t>(point);
+    if (found_[i]) return;
+    found_[i] = width >= phi[i];
+    PushShore({std::min(width, phi[i]), order++, point, parent, basin});
+  };
+  for (const int point : surface_->port) find(point, kInfinity, -1, Basin::kPort);
+  for (const int point : surface_->border) find(point, kInfinity, -1, Basin::kBorder);
   while (!shores_.empty()) {
     std::pop_heap(shores_.begin(), shores_.end());
     const Shore shore = shores_.back();
@@ -62,13 +66,10 @@ void Classifier::Flood(const std::vector<double>& phi, const std::vector<EdgeWay
         shore.parent < 0 ? kInfinity : bottleneck_[static_cast<std::size_t>(shore.parent)];
     bottleneck_[point] = std::min(shore.phi, upstream);
     for (const int next : surface_->neighbours[point]) {
-      if (basin_[static_cast<std::size_t>(next)] != Basin::kNone) continue;
-      PushShore({phi[static_cast<std::size_t>(next)], order++, next, shore.point, shore.basin});
+      find(next, kInfinity, shore.point, shore.basin);
     }
-    ForWaysFrom(shore.point, ways, [&](int next, double gap) {
-      const double level = std::min(gap, phi[static_cast<std::size_t>(next)]);
-      PushShore({level, order++, next, shore.point, shore.basin});
-    });
+    ForWaysFrom(shore.point, ways,
+                [&](int next, double gap) { find(next, gap, shore.point, shore.basin); });
   }
 }
 

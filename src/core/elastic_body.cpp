@@ -62,14 +62,14 @@ std::vector<Tetrahedron<N, Q>> MakeElements(const TetMesh& mesh,
   for (int e = 0; e < mesh.num_elements(); ++e) {
     Tetrahedron<N, Q>& element = elements[static_cast<std::size_t>(e)];
     for (int a = 0; a < N; ++a) element.nodes[static_cast<std::size_t>(a)] = mesh.elements(a, e);
-    const Eigen::Matrix<double, N, 3> X = element.Gather(mesh.nodes).template topRows<N>();
+    const auto X = element.Gather(mesh.nodes);
     double volume = 0.0;
     for (std::size_t q = 0; q < Q; ++q) {
       const ShapeFunctions<N> shape = shape_at(points[q]);
       const Eigen::Matrix<double, N, 3> local = shape.derivatives * to_local;
-      const Eigen::Matrix3d J = X.transpose() * local;
+      const Eigen::Matrix3d J = X.template topRows<3>() * local;
       element.gradients[q].setZero();
-      element.gradients[q].template topRows<N>() = local * J.inverse();
+      element.gradients[q].template topRows<3>() = (local * J.inverse()).transpose();
       element.weights[q] = J.determinant() / (6.0 * Q);
       volume += element.weights[q];
       for (int a = 0; a < N; ++a) {
@@ -109,8 +109,7 @@ double ElasticBody::Energy(const Eigen::Matrix3Xd& x) const {
         for (const auto& element : elements) {
           const auto x_e = element.Gather(x);
           for (std::size_t q = 0; q < element.weights.size(); ++q) {
-            energy +=
-                element.weights[q] * law.EnergyDensity(x_e.transpose() * element.gradients[q]);
+            energy += element.weights[q] * law.EnergyDensity(element.Gradient(x_e, q));
           }
         }
       },
@@ -126,7 +125,7 @@ Eigen::Matrix3Xd ElasticBody::InternalForce(const Eigen::Matrix3Xd& x) const {
           auto f_e = element.Gather(x);
           ElementForces(element, law, element.Gather(x), &f_e, nullptr);
           for (std::size_t a = 0; a < element.nodes.size(); ++a) {
-            force.col(element.nodes[a]) += f_e.row(static_cast<Eigen::Index>(a)).transpose();
+            force.col(element.nodes[a]) += f_e.col(static_cast<Eigen::Index>(a)).template head<3>();
           }
         }
       },
@@ -139,13 +138,15 @@ Eigen::SparseMatrix<double> ElasticBody::Stiffness(const Eigen::Matrix3Xd& x) co
   std::visit(
       [&](const auto& elements, const auto& law) {
         using Element = typename std::decay_t<decltype(elements)>::value_type;
+        using Law = std::decay_t<decltype(law)>;
         typename Element::NodalVectors f_e;
-        typename Element::Stiffness K_e;
+        PointTangents<Element, Law> tangents;
         for (const auto& element : elements) {
-          ElementForces(element, law, element.Gather(x), &f_e, &K_e);
+          ElementForces(element, law, element.Gather(x), &f_e, &tangents);
+          const ElementStiffness<Element, Law> K_e(element, law, tangents, 1.0);
           for (int b = 0; b < Element::kNodes; ++b) {
             for (int a = 0; a < Element::kNodes; ++a) {
-              const Eigen::Matrix3d block = Element::Block(K_e, a, b);
+              const NodeBlock block = K_e(a, b);
               const int row = 3 * element.nodes[static_cast<std::size_t>(a)];
               const int column = 3 * element.nodes[static_cast<std::size_t>(b)];
               for (int j = 0; j < 3; ++j) {

@@ -95,7 +95,7 @@ void ImplicitEuler::AddStiffness(const Eigen::Matrix3Xd& dv, const std::vector<s
       packs_, body_->law());
 }
 
-const Eigen::SparseMatrix<double>& ImplicitEuler::A_ff() {
+const NodeMatrix& ImplicitEuler::A_ff() {
   if (!assembled_) matrix_.Assemble(linearization_, &A_ff_);
   assembled_ = true;
   return A_ff_;

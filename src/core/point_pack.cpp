@@ -116,7 +116,7 @@ std::vector<PointPack<Element>> MakePointPacks(const std::vector<Element>& eleme
       for (int a = 0; a < Element::kNodes; ++a) {
         for (int j = 0; j < 3; ++j) {
           pack.gradients[static_cast<std::size_t>(a)][static_cast<std::size_t>(j)](lane) =
-              element.gradients[q](a, j);
+              element.gradients[q](j, a);
         }
       }
     }

@@ -18,6 +18,12 @@ using Profile = std::array<double, kSamples>;
 
 double WrapToPi(double angle) { return std::remainder(angle, kTurn); }
 
+/// The short way round, of azimuths in [-pi, pi].
+double WayBetween(double from, double to) {
+  const double way = to - from;
+  return way > M_PI ? way - kTurn : way < -M_PI ? way + kTurn : way;
+}
+
 int WrapSample(int k) { return ((k % kSamples) + kSamples) % kSamples; }
 
 double At(const Profile& profile, int k) {
@@ -49,7 +55,7 @@ Profile MeridianGaps(const CavitySurface& surface, int cup, const std::vector<do
   for (std::size_t a = begin; a < end; ++a) {
     for (const int neighbour : surface.neighbours[a]) {
       const auto b = static_cast<std::size_t>(neighbour);
-      const double way = WrapToPi(azimuth[b] - azimuth[a]);
+      const double way = WayBetween(azimuth[a], azimuth[b]);
       if (way <= 0.0) continue;  // the same edge comes the other way round
       const double peak = PeakOver(static_cast<int>(a), neighbour, ways);
       const int last = static_cast<int>(std::floor((azimuth[a] + way) / kStep));

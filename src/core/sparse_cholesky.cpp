@@ -38,7 +38,7 @@ void AddChild(const Scalar* update, const std::vector<int>& in_parent, std::size
 
 }  // namespace
 
-bool SparseCholesky::Factorize(const Eigen::SparseMatrix<double>& A, Precision precision) {
+bool SparseCholesky::Factorize(const NodeMatrix& A, Precision precision) {
   if (precision == Precision::kSingle && !std::holds_alternative<Numbers<float>>(numbers_)) {
     numbers_ = Numbers<float>();
   } else if (precision == Precision::kDouble &&
@@ -76,7 +76,7 @@ void SparseCholesky::EliminateColumns(const std::vector<NodeColumn>& B,
 
 /// @returns false if A is not positive definite.
 template <typename Scalar>
-bool SparseCholesky::EliminateFront(const Supernode& front, const Eigen::SparseMatrix<double>& A,
+bool SparseCholesky::EliminateFront(const Supernode& front, const NodeMatrix& A,
                                     Numbers<Scalar>* numbers) const {
   Scalar* const panel = numbers->factor.data() + front.offset;
   const Index rows = 3 * front.num_rows();
@@ -84,7 +84,13 @@ bool SparseCholesky::EliminateFront(const Supernode& front, const Eigen::SparseM
   const Index below = rows - own;
   std::fill_n(panel, rows * own, Scalar(0));
   for (std::size_t e = front.entries_begin; e < front.entries_end; ++e) {
-    panel[entries_[e].second] += static_cast<Scalar>(A.valuePtr()[entries_[e].first]);
+    const NodeBlock& block = A.values[entries_[e].block];
+    Scalar* column = panel + entries_[e].offset;
+    for (int j = 0; j < 3; ++j, column += rows) {
+      for (int i = 0; i < 3; ++i) {
+        column[i] = static_cast<Scalar>(entries_[e].mirrored ? block(j, i) : block(i, j));
+      }
+    }
   }
   for (const int c : front.children) {
     const Supernode& child = supernodes_[static_cast<std::size_t>(c)];

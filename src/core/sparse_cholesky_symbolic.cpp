@@ -2,7 +2,7 @@
 #include <Eigen/OrderingMethods>
 #include <algorithm>
 #include <numeric>
-#include <stdexcept>
+#include <utility>
 
 #include "vacuum_gripper_sim/core/sparse_cholesky.h"
 
@@ -10,16 +10,12 @@ namespace vacuum_gripper_sim {
 namespace {
 
 /// Neighbours of every node, itself excluded, ascending.
-std::vector<std::vector<int>> NodeGraph(const Eigen::SparseMatrix<double>& A) {
-  std::vector<std::vector<int>> graph(static_cast<std::size_t>(A.cols() / 3));
-  for (int column = 0; column < A.cols(); ++column) {
-    const int b = column / 3;
-    for (Eigen::SparseMatrix<double>::InnerIterator entry(A, column); entry; ++entry) {
-      const int a = static_cast<int>(entry.row()) / 3;
-      if (a == b) continue;
-      graph[static_cast<std::size_t>(a)].push_back(b);
-      graph[static_cast<std::size_t>(b)].push_back(a);
-    }
+std::vector<std::vector<int>> NodeGraph(const NodeMatrix& A) {
+  std::vector<std::vector<int>> graph(static_cast<std::size_t>(A.num_nodes));
+  for (const auto& [row, column] : A.places) {
+    if (row == column) continue;
+    graph[static_cast<std::size_t>(row)].push_back(column);
+    graph[static_cast<std::size_t>(column)].push_back(row);
   }
   for (auto& neighbours : graph) {
     std::sort(neighbours.begin(), neighbours.end());
@@ -107,11 +103,8 @@ bool WorthMerging(int merged_width, double zero_share) {
 
 }  // namespace
 
-void SparseCholesky::Analyze(const Eigen::SparseMatrix<double>& A) {
-  if (A.rows() != A.cols() || A.cols() % 3 != 0) {
-    throw std::invalid_argument("SparseCholesky: the matrix is not made of 3 by 3 node blocks");
-  }
-  size_ = A.cols();
+void SparseCholesky::Analyze(const NodeMatrix& A) {
+  size_ = 3 * A.num_nodes;
   const std::vector<std::vector<int>> graph = NodeGraph(A);
   Order(graph);
   FindPieces();
@@ -264,39 +257,27 @@ void SparseCholesky::PlaceUpdates() {
   }
 }
 
-void SparseCholesky::MapEntries(const Eigen::SparseMatrix<double>& A) {
-  struct Entry {
-    int supernode;
-    int value;
-    int place;
-  };
-  std::vector<Entry> found;
-  for (int column = 0; column < A.cols(); ++column) {
-    for (int value = A.outerIndexPtr()[column]; value < A.outerIndexPtr()[column + 1]; ++value) {
-      const int row = A.innerIndexPtr()[value];
-      // Position of row and column in elimination order; the later one is the row of L.
-      int i = 3 * position_[static_cast<std::size_t>(row / 3)] + row % 3;
-      int j = 3 * position_[static_cast<std::size_t>(column / 3)] + column % 3;
-      if (i < j) std::swap(i, j);
-      const int s = supernode_of_[static_cast<std::size_t>(j / 3)];
-      const Supernode& supernode = supernodes_[static_cast<std::size_t>(s)];
-      const auto place = std::lower_bound(supernode.rows.begin(), supernode.rows.end(), i / 3);
-      const int panel_row = 3 * static_cast<int>(place - supernode.rows.begin()) + i % 3;
-      const int panel_column = j - 3 * supernode.first;
-      found.push_back({s, value, panel_row + panel_column * 3 * supernode.num_rows()});
-    }
+void SparseCholesky::MapEntries(const NodeMatrix& A) {
+  std::vector<std::vector<Entry>> found(supernodes_.size());
+  for (std::size_t block = 0; block < A.places.size(); ++block) {
+    // In elimination order; the later one is the row of L.
+    int row = position_[static_cast<std::size_t>(A.places[block].row)];
+    int column = position_[static_cast<std::size_t>(A.places[block].column)];
+    const bool mirrored = row < column;
+    if (mirrored) std::swap(row, column);
+    const int s = supernode_of_[static_cast<std::size_t>(column)];
+    const Supernode& front = supernodes_[static_cast<std::size_t>(s)];
+    const auto place = std::lower_bound(front.rows.begin(), front.rows.end(), row);
+    const Eigen::Index panel_row = 3 * (place - front.rows.begin());
+    const Eigen::Index panel_column = 3 * (column - front.first);
+    found[static_cast<std::size_t>(s)].push_back(
+        {block, panel_row + panel_column * 3 * front.num_rows(), mirrored});
   }
-  std::stable_sort(found.begin(), found.end(),
-                   [](const Entry& a, const Entry& b) { return a.supernode < b.supernode; });
   entries_.clear();
-  std::size_t next = 0;
   for (std::size_t s = 0; s < supernodes_.size(); ++s) {
-    supernodes_[s].entries_begin = next;
-    while (next < found.size() && found[next].supernode == static_cast<int>(s)) {
-      entries_.emplace_back(found[next].value, found[next].place);
-      ++next;
-    }
-    supernodes_[s].entries_end = next;
+    supernodes_[s].entries_begin = entries_.size();
+    entries_.insert(entries_.end(), found[s].begin(), found[s].end());
+    supernodes_[s].entries_end = entries_.size();
   }
 }
 

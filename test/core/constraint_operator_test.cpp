@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "support/block_mesh.h"
+#include "support/node_matrices.h"
 #include "vacuum_gripper_sim/core/cup_array.h"
 
 namespace vacuum_gripper_sim {
@@ -113,8 +114,7 @@ class ConstraintOperatorTest : public testing::Test {
   MatrixXd Mass() {
     const Eigen::Index size = 3 * system_.num_free();
     MatrixXd mass = MatrixXd::Zero(size + 12, size + 12);
-    mass.topLeftCorner(size, size) =
-        MatrixXd(MatrixXd(system_.A_ff()).selfadjointView<Eigen::Lower>());
+    mass.topLeftCorner(size, size) = Dense(system_.A_ff());
     for (int body = 0; body < 2; ++body) {
       mass.block<6, 6>(size + 6 * body, size + 6 * body) = world_.Mass(body);
     }

@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 
 #include "support/block_mesh.h"
+#include "support/node_matrices.h"
 #include "vacuum_gripper_sim/core/sparse_cholesky.h"
 
 namespace vacuum_gripper_sim {
@@ -19,9 +20,7 @@ class ImplicitEulerTest : public testing::TestWithParam<bool> {
   const ElasticBody body_{mesh_, {338000.0, 0.45, 1080.0}};
   const double mass_ = 1080.0 * 0.02 * 0.01 * 0.01;
 
-  Eigen::MatrixXd DenseA(ImplicitEuler& system) const {
-    return Eigen::MatrixXd(Eigen::MatrixXd(system.A_ff()).selfadjointView<Eigen::Lower>());
-  }
+  Eigen::MatrixXd DenseA(ImplicitEuler& system) const { return Dense(system.A_ff()); }
 };
 
 // A_ff = M + h D + h^2 K on the free nodes, against the matrices assembled by triplets.

@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "support/block_mesh.h"
+#include "support/node_matrices.h"
 #include "vacuum_gripper_sim/core/background_factorization.h"
 #include "vacuum_gripper_sim/core/implicit_euler.h"
 
@@ -20,10 +21,8 @@ class BendingBlock {
  public:
   ImplicitEuler* system() { return &system_; }
   Eigen::Index size() const { return 3 * system_.num_free(); }
-  const Eigen::SparseMatrix<double>& A() { return system_.A_ff(); }
-  Eigen::MatrixXd Dense() {
-    return Eigen::MatrixXd(Eigen::MatrixXd(A()).selfadjointView<Eigen::Lower>());
-  }
+  const NodeMatrix& A() { return system_.A_ff(); }
+  Eigen::MatrixXd Dense() { return vacuum_gripper_sim::Dense(A()); }
   void Bend(double slope) {
     x_.row(2) += slope * x_.row(0);
     Linearize();

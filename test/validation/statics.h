@@ -105,24 +105,27 @@ class Statics {
                   Triplets* triplets) const {
     using NodalVectors = typename Element::NodalVectors;
     NodalVectors x_e = element.Gather(x);
-    typename Element::Stiffness tangent;
-    for (Eigen::Index k = 0; k < x_e.size(); ++k) {
-      const double at = x_e.data()[k];
-      NodalVectors ahead;
-      NodalVectors behind;
-      x_e.data()[k] = at + kDifferenceStep;
-      ElementForces(element, law, x_e, &ahead, nullptr);
-      x_e.data()[k] = at - kDifferenceStep;
-      ElementForces(element, law, x_e, &behind, nullptr);
-      x_e.data()[k] = at;
-      const NodalVectors slope = (behind - ahead) / (2.0 * kDifferenceStep);
-      tangent.col(k) = Eigen::Map<const Eigen::VectorXd>(slope.data(), slope.size());
+    Eigen::Matrix<double, 3 * Element::kNodes, 3 * Element::kNodes> tangent;
+    for (int b = 0; b < Element::kNodes; ++b) {
+      for (int j = 0; j < 3; ++j) {
+        const double at = x_e(j, b);
+        NodalVectors ahead;
+        NodalVectors behind;
+        x_e(j, b) = at + kDifferenceStep;
+        ElementForces(element, law, x_e, &ahead, nullptr);
+        x_e(j, b) = at - kDifferenceStep;
+        ElementForces(element, law, x_e, &behind, nullptr);
+        x_e(j, b) = at;
+        const Eigen::Matrix<double, 3, Element::kNodes> slope =
+            (behind - ahead).template topRows<3>() / (2.0 * kDifferenceStep);
+        tangent.col(3 * b + j) = Eigen::Map<const Eigen::VectorXd>(slope.data(), slope.size());
+      }
     }
     for (int a = 0; a < Element::kNodes; ++a) {
       for (int b = 0; b < Element::kNodes; ++b) {
         AddBlock(element.nodes[static_cast<std::size_t>(a)],
-                 element.nodes[static_cast<std::size_t>(b)], Element::Block(tangent, a, b),
-                 triplets);
+                 element.nodes[static_cast<std::size_t>(b)],
+                 tangent.template block<3, 3>(3 * a, 3 * b), triplets);
       }
     }
   }

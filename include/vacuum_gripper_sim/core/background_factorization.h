@@ -1,6 +1,5 @@
 #pragma once
 
-#include <Eigen/SparseCore>
 #include <condition_variable>
 #include <exception>
 #include <mutex>
@@ -48,7 +47,7 @@ class BackgroundFactorization {
   bool stop_{false};
   // Of the worker while busy, else of the caller.
   Linearization linearization_;
-  Eigen::SparseMatrix<double> A_;
+  NodeMatrix A_;
   SparseCholesky factorization_;
   bool positive_definite_{false};
   std::exception_ptr error_;

@@ -86,6 +86,7 @@ class Classifier {
   const CavitySurface* surface_;
   // The two floods: which basin owns each point, the lowest phi on the way there from its seed, and
   // the points to take, a heap.
+  std::vector<bool> found_;  // by point: by a way that is no narrower than the point
   std::vector<Basin> basin_;
   std::vector<double> bottleneck_;
   std::vector<Shore> shores_;

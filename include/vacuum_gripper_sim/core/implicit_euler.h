@@ -46,8 +46,8 @@ class ImplicitEuler {
   /// What A_ff is made of, and how; for another thread.
   const Linearization& linearization() const { return linearization_; }
   const StepMatrix& matrix() const { return matrix_; }
-  /// A_ff, lower triangle; assembled if that has not been done since Linearize(). [kg]
-  const Eigen::SparseMatrix<double>& A_ff();
+  /// A_ff, assembled if that has not been done since Linearize(). [kg]
+  const NodeMatrix& A_ff();
   /// Of the step's impulses, however little the body moves: norm of the free nodes' masses times h
   /// and standard gravity. [kg m/s]
   double ImpulseScale() const;
@@ -91,7 +91,7 @@ class ImplicitEuler {
   Linearization linearization_;
   Eigen::Matrix3Xd b_;  // all nodes
   bool assembled_{false};
-  Eigen::SparseMatrix<double> A_ff_;
+  NodeMatrix A_ff_;
 
   // Of a product with A, and its result.
   Eigen::Matrix3Xd dv_, product_;

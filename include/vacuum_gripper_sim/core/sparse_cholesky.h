@@ -1,15 +1,14 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <Eigen/SparseCore>
 #include <array>
 #include <cstddef>
-#include <utility>
 #include <variant>
 #include <vector>
 
 #include "vacuum_gripper_sim/core/eliminated_columns.h"
 #include "vacuum_gripper_sim/core/matrix_memory.h"
+#include "vacuum_gripper_sim/core/node_matrix.h"
 #include "vacuum_gripper_sim/core/parameters.h"
 
 namespace vacuum_gripper_sim {
@@ -31,19 +30,18 @@ namespace vacuum_gripper_sim {
  matrix solution: theory and practice", SIAM Review 34(1). */
 class SparseCholesky {
  public:
-  /// Finds ordering and structure. @param A Lower triangle, compressed; rows and columns come in
-  /// node blocks of three. @throws std::invalid_argument if the size is not a multiple of three.
-  void Analyze(const Eigen::SparseMatrix<double>& A);
+  /// Finds ordering and structure.
+  void Analyze(const NodeMatrix& A);
   bool analyzed() const { return !supernodes_.empty(); }
   /// A falls into this many pieces without entries between them,
   int num_pieces() const { return num_pieces_; }
   /// of which a node belongs to one.
   int PieceOf(int node) const { return piece_of_[static_cast<std::size_t>(node)]; }
 
-  /// Factorises. @param A Same sparsity as that of Analyze().
+  /// Factorises. @param A Its places are those of Analyze().
   /// @returns false if A is not positive definite, to the given precision; the factor is unusable
   /// then.
-  bool Factorize(const Eigen::SparseMatrix<double>& A, Precision precision = Precision::kDouble);
+  bool Factorize(const NodeMatrix& A, Precision precision = Precision::kDouble);
 
   /// Of the last factorisation.
   Precision precision() const {
@@ -75,10 +73,17 @@ class SparseCholesky {
     std::size_t update_offset{0};  ///< Of the update in Numbers::updates[depth % 2].
     std::size_t offset{
         0};  ///< Of the front's panel in Numbers::factor: 3 #rows by 3 width, column-major.
-    std::size_t entries_begin{0}, entries_end{0};  ///< Of entries_: A's values that enter here.
+    std::size_t entries_begin{0}, entries_end{0};  ///< Of entries_: A's blocks that enter here.
 
     int num_rows() const { return static_cast<int>(rows.size()); }
     int num_below() const { return num_rows() - width; }
+  };
+
+  /// A block of A in a front's panel.
+  struct Entry {
+    std::size_t block{0};
+    Eigen::Index offset{0};  ///< Of its first number in the panel.
+    bool mirrored{false};    ///< Its node of the column is eliminated after that of the row.
   };
 
   /// Values of the factor, and updates that wait for their parent, on two stacks: in postorder a
@@ -101,12 +106,11 @@ class SparseCholesky {
   void MergeSmallSupernodes();
   void LinkSupernodes();
   void PlaceUpdates();
-  void MapEntries(const Eigen::SparseMatrix<double>& A);
+  void MapEntries(const NodeMatrix& A);
   template <typename Scalar>
   std::vector<Scalar>& LayOutColumns(const std::vector<NodeColumn>& B, EliminatedColumns* Y) const;
   template <typename Scalar>
-  bool EliminateFront(const Supernode& front, const Eigen::SparseMatrix<double>& A,
-                      Numbers<Scalar>* numbers) const;
+  bool EliminateFront(const Supernode& front, const NodeMatrix& A, Numbers<Scalar>* numbers) const;
   template <typename Scalar>
   void Eliminate(const Numbers<Scalar>& numbers, const Eigen::VectorXd& b,
                  Eigen::VectorXd* y) const;
@@ -125,8 +129,8 @@ class SparseCholesky {
   std::vector<int> piece_of_;      // by node
   int num_pieces_{0};
   std::vector<Supernode> supernodes_;
-  std::vector<int> supernode_of_;             // by position
-  std::vector<std::pair<int, int>> entries_;  // (value of A, place in the panel), by supernode
+  std::vector<int> supernode_of_;  // by position
+  std::vector<Entry> entries_;     // by supernode
   std::size_t factor_size_{0};
   std::array<std::size_t, 2> update_sizes_{};
   std::variant<Numbers<double>, Numbers<float>> numbers_;

@@ -1,13 +1,12 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <Eigen/SparseCore>
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
 
 #include "vacuum_gripper_sim/core/elastic_body.h"
+#include "vacuum_gripper_sim/core/node_matrix.h"
 #include "vacuum_gripper_sim/core/point_pack.h"
 
 namespace vacuum_gripper_sim {
@@ -19,37 +18,35 @@ struct Linearization {
   double mass_factor{0.0};       ///< [-]
 };
 
-/** Assembles A of the free nodes, lower triangle. What depends on the mesh alone is found once;
- different threads may assemble at the same time. */
+/** Assembles A of the free nodes. What depends on the mesh alone is found once; different threads
+ may assemble at the same time. */
 class StepMatrix {
  public:
   /// @param body Must outlive this. @param free_row First of a node's three rows; -1: clamped.
   StepMatrix(const ElasticBody& body, const std::vector<int>& free_row);
 
-  /// The sparsity, compressed, with values of zero.
-  const Eigen::SparseMatrix<double>& pattern() const { return pattern_; }
+  /// The sparsity, with values of zero.
+  const NodeMatrix& pattern() const { return pattern_; }
   /// @param[in,out] A A copy of pattern(); its values are replaced. [kg]
-  void Assemble(const Linearization& linearization, Eigen::SparseMatrix<double>* A) const;
+  void Assemble(const Linearization& linearization, NodeMatrix* A) const;
 
  private:
-  /// A 3 by 3 block of an element's matrix that A has a place for.
-  struct Block {
-    std::uint8_t a{0}, b{0};       ///< Nodes of the element.
-    bool diagonal{false};          ///< Then its lower triangle alone.
-    std::array<int, 3> offsets{};  ///< Of its three columns.
+  /// A block of an element's matrix that A has a place for.
+  struct Share {
+    std::uint8_t a{0}, b{0};  ///< Nodes of the element, of row and column.
+    int place{0};             ///< In A.
   };
 
   template <typename Element, typename Law>
   void AddElements(const std::vector<Element>& elements, const Law& law,
-                   const Linearization& linearization, double* values) const;
-  int OffsetOf(int row, int column) const;
+                   const Linearization& linearization, NodeMatrix* A) const;
 
   const ElasticBody* body_;
-  Eigen::SparseMatrix<double> pattern_;
-  std::vector<Block> blocks_;            // element by element
-  std::vector<std::size_t> blocks_end_;  // by element
+  NodeMatrix pattern_;
+  std::vector<Share> shares_;            // element by element
+  std::vector<std::size_t> shares_end_;  // by element
   std::vector<int> mass_nodes_;          // the free nodes
-  std::vector<int> mass_offsets_;        // of their diagonals, three each
+  std::vector<int> diagonal_;            // place of each of these
 };
 
 }  // namespace vacuum_gripper_sim

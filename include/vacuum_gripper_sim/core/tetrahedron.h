@@ -2,24 +2,21 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <cmath>
 #include <cstddef>
 
 #include "vacuum_gripper_sim/core/material_model.h"
+#include "vacuum_gripper_sim/core/node_matrix.h"
 
 namespace vacuum_gripper_sim {
 
-/** One tetrahedron of N nodes with Q integration points.
-
- Everything an element has at its nodes is stored with the nodes along the columns, padded with
- zeros to whole vector registers: lane a of column i is component i at node a. */
+/// One tetrahedron of N nodes with Q integration points.
 template <int N, int Q>
 struct Tetrahedron {
   static constexpr int kNodes = N;
   static constexpr int kPoints = Q;
-  static constexpr int kLanes = (N + 3) / 4 * 4;
-  using NodalVectors = Eigen::Matrix<double, kLanes, 3>;
-  /// Row i kLanes + a, column j kLanes + b: entry (i, j) of the block of the nodes a and b.
-  using Stiffness = Eigen::Matrix<double, 3 * kLanes, 3 * kLanes>;
+  /// A vector at each node, a column each, with a fourth row of zeros to fill a vector register.
+  using NodalVectors = Eigen::Matrix<double, 4, N>;
 
   std::array<int, N> nodes;               ///< Mesh nodes, VTK order.
   std::array<double, Q> weights;          ///< Rest volume of each point. [m^3]
@@ -29,15 +26,15 @@ struct Tetrahedron {
   NodalVectors Gather(const Eigen::Matrix3Xd& values) const {
     NodalVectors gathered = NodalVectors::Zero();
     for (int a = 0; a < N; ++a) {
-      gathered.row(a) = values.col(nodes[static_cast<std::size_t>(a)]).transpose();
+      gathered.col(a).template head<3>() = values.col(nodes[static_cast<std::size_t>(a)]);
     }
     return gathered;
   }
 
-  /// The 3 by 3 block of the nodes a and b.
-  static Eigen::Matrix3d Block(const Stiffness& K, int a, int b) {
-    using Stride = Eigen::Stride<3 * kLanes * kLanes, kLanes>;
-    return Eigen::Map<const Eigen::Matrix3d, Eigen::Unaligned, Stride>(&K(a, b));
+  /// Of a field given at the nodes, at a point, by the rest position.
+  Eigen::Matrix3d Gradient(const NodalVectors& values, std::size_t point) const {
+    return values.template topRows<3>().lazyProduct(
+        gradients[point].template topRows<3>().transpose());
   }
 };
 
@@ -48,26 +45,110 @@ using QuadraticTetrahedron = Tetrahedron<10, 4>;
 template <typename Element, typename Law>
 using PointTangents = std::array<typename Law::Tangent, Element::kPoints>;
 
-/** Internal force and stiffness of one element whose material has the given law (Corotational- or
- NeoHookeanLaw): with the stress P and the tangent of the law at every integration point, weighted,
+/** Internal force of one element whose material has the given law (Corotational- or
+ NeoHookeanLaw): with its stress P at every integration point, weighted,
 
-     f_a = -sum P dN_a/dX,    K_ab = d(P dN_a/dX) / dx_b by the law's tangent.
+     f_a = -sum P dN_a/dX.
 
  One deformation gradient an integration point, not one an element, keeps a bent quadratic element
  consistent.
  @param x Positions of its nodes. [m]
  @param[out] f Force on its nodes. [N]
- @param[out] K Symmetric, positive semi-definite; only written when not null. [N/m] */
+ @param[out] tangents Only written when not null. */
 template <int N, int Q, typename Law>
 void ElementForces(const Tetrahedron<N, Q>& element, const Law& law,
                    const typename Tetrahedron<N, Q>::NodalVectors& x,
                    typename Tetrahedron<N, Q>::NodalVectors* f,
-                   typename Tetrahedron<N, Q>::Stiffness* K);
+                   PointTangents<Tetrahedron<N, Q>, Law>* tangents);
 
-/// K alone, of given tangents.
-template <int N, int Q, typename Law>
-void ElementStiffness(const Tetrahedron<N, Q>& element, const Law& law,
-                      const PointTangents<Tetrahedron<N, Q>, Law>& tangents,
-                      typename Tetrahedron<N, Q>::Stiffness* K);
+/** A multiple of the stiffness of one element, K_ab = d(sum of P dN_a/dX) / dx_b by the law's
+ tangents, block by block. K is symmetric and positive semi-definite. */
+template <typename Element, typename Law>
+class ElementStiffness;
+
+/// dP = lambda (R : dF) R + mu (dF + R dF^T R) gives, with g_a = R dN_a/dX,
+///
+///     K_ab = sum of weight (lambda g_a g_b^T + mu (g_b g_a^T + (g_a . g_b) I)).
+template <typename Element>
+class ElementStiffness<Element, CorotationalLaw> {
+ public:
+  /// @param factor K is multiplied by it; >= 0.
+  ElementStiffness(const Element& element, const CorotationalLaw& law,
+                   const PointTangents<Element, CorotationalLaw>& tangents, double factor) {
+    for (std::size_t q = 0; q < tangents.size(); ++q) {
+      NodeBlock R;
+      R << std::sqrt(factor * element.weights[q]) * tangents[q].R, Eigen::RowVector3d::Zero();
+      g_[q].noalias() = R.lazyProduct(element.gradients[q].template topRows<3>());
+      lambda_g_[q] = law.lame().lambda * g_[q];
+      mu_g_[q] = law.lame().mu * g_[q];
+    }
+  }
+
+  /// Block of the nodes a and b.
+  NodeBlock operator()(int a, int b) const {
+    NodeBlock K_ab = NodeBlock::Zero();
+    Eigen::Vector4d products = Eigen::Vector4d::Zero();
+    for (std::size_t q = 0; q < g_.size(); ++q) {
+      const Eigen::Vector4d g_a = g_[q].col(a);
+      const Eigen::Vector4d g_b = g_[q].col(b);
+      for (int j = 0; j < 3; ++j) {
+        K_ab.col(j) += lambda_g_[q](j, b) * g_a + mu_g_[q](j, a) * g_b;
+      }
+      products += mu_g_[q].col(a).cwiseProduct(g_b);
+    }
+    // Not by its entries: numbers just written one by one are slow to read as vectors.
+    return K_ab + products.sum() * identity_;
+  }
+
+ private:
+  /// At every point, times the root of its weight and so on.
+  std::array<typename Element::NodalVectors, Element::kPoints> g_, lambda_g_, mu_g_;
+  NodeBlock identity_ = NodeBlock::Identity();
+};
+
+/// Any tangent: K_ab(i, k) is the sum over J, L of dN_a/dX_J tangent(iJ, kL) dN_b/dX_L.
+template <typename Element>
+class ElementStiffness<Element, NeoHookeanLaw> {
+ public:
+  /// @param factor K is multiplied by it; >= 0.
+  ElementStiffness(const Element& element, const NeoHookeanLaw&,
+                   const PointTangents<Element, NeoHookeanLaw>& tangents, double factor)
+      : element_(&element) {
+    for (std::size_t q = 0; q < tangents.size(); ++q) {
+      const Eigen::Matrix<double, 3, Element::kNodes> weighted =
+          factor * element.weights[q] * element.gradients[q].template topRows<3>();
+      for (int b = 0; b < Element::kNodes; ++b) {
+        for (int k = 0; k < 3; ++k) {
+          const Eigen::Matrix<double, 9, 1> change = tangents[q].col(k) * weighted(0, b) +
+                                                     tangents[q].col(k + 3) * weighted(1, b) +
+                                                     tangents[q].col(k + 6) * weighted(2, b);
+          Change(q, b, k) << Eigen::Map<const Eigen::Matrix3d>(change.data()),
+              Eigen::RowVector3d::Zero();
+        }
+      }
+    }
+  }
+
+  /// Block of the nodes a and b.
+  NodeBlock operator()(int a, int b) const {
+    NodeBlock K_ab = NodeBlock::Zero();
+    for (std::size_t q = 0; q < Element::kPoints; ++q) {
+      const Eigen::Vector3d gradient = element_->gradients[q].col(a).template head<3>();
+      for (int k = 0; k < 3; ++k) K_ab.col(k) += Change(q, b, k).lazyProduct(gradient);
+    }
+    return K_ab;
+  }
+
+ private:
+  static std::size_t Index(std::size_t q, int b, int k) {
+    return (q * Element::kNodes + static_cast<std::size_t>(b)) * 3 + static_cast<std::size_t>(k);
+  }
+  /// Of P at a point, weighted, while component k of node b moves.
+  NodeBlock& Change(std::size_t q, int b, int k) { return changes_[Index(q, b, k)]; }
+  const NodeBlock& Change(std::size_t q, int b, int k) const { return changes_[Index(q, b, k)]; }
+
+  const Element* element_;
+  std::array<NodeBlock, 3 * Element::kNodes * Element::kPoints> changes_;
+};
 
 }  // namespace vacuum_gripper_sim

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+namespace vacuum_gripper_sim {
+
+/// A 3 by 3 block. Its columns fill a vector register each; the fourth row means nothing.
+using NodeBlock = Eigen::Matrix<double, 4, 3>;
+
+/// A symmetric matrix made of 3 by 3 blocks, a row and a column of them for each node. Of a block
+/// and its mirror image one is stored.
+struct NodeMatrix {
+  struct Place {
+    int row{0};
+    int column{0};
+  };
+
+  int num_nodes{0};
+  std::vector<Place> places;      ///< Each pair of nodes once at most, in any order.
+  std::vector<NodeBlock> values;  ///< By place.
+};
+
+}  // namespace vacuum_gripper_sim
