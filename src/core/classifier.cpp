@@ -39,22 +39,22 @@ Zone ZoneOf(const std::vector<int>& neighbours, std::size_t point, const std::ve
  algorithm with two roots): before any point below some level is taken, all that the seeds reach
  above it are. So the widest way between the seeds crosses from one basin to the other at an edge
  whose two bottlenecks are at least its own. Of the ways to a point that are no narrower than the
- point, the one found first counts: it waits on a shore once. */
+ point, the one found first counts; after that it is not queued again. */
 void Classifier::Flood(const std::vector<double>& phi, const std::vector<EdgeWay>& ways) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   basin_.assign(phi.size(), Basin::kNone);
   bottleneck_.assign(phi.size(), kInfinity);
-  found_.assign(phi.size(), false);
+  reached_in_full_.assign(phi.size(), false);
   shores_.clear();
   int order = 0;
-  const auto find = [&](int point, double width, int parent, Basin basin) {
+  const auto reach = [&](int point, double width, int parent, Basin basin) {
     const auto i = static_cast<std::size_t>(point);
-    if (found_[i]) return;
-    found_[i] = width >= phi[i];
+    if (reached_in_full_[i]) return;
+    reached_in_full_[i] = width >= phi[i];
     PushShore({std::min(width, phi[i]), order++, point, parent, basin});
   };
-  for (const int point : surface_->port) find(point, kInfinity, -1, Basin::kPort);
-  for (const int point : surface_->border) find(point, kInfinity, -1, Basin::kBorder);
+  for (const int point : surface_->port) reach(point, kInfinity, -1, Basin::kPort);
+  for (const int point : surface_->border) reach(point, kInfinity, -1, Basin::kBorder);
   while (!shores_.empty()) {
     std::pop_heap(shores_.begin(), shores_.end());
     const Shore shore = shores_.back();
@@ -66,10 +66,10 @@ void Classifier::Flood(const std::vector<double>& phi, const std::vector<EdgeWay
         shore.parent < 0 ? kInfinity : bottleneck_[static_cast<std::size_t>(shore.parent)];
     bottleneck_[point] = std::min(shore.phi, upstream);
     for (const int next : surface_->neighbours[point]) {
-      find(next, kInfinity, shore.point, shore.basin);
+      reach(next, kInfinity, shore.point, shore.basin);
     }
     ForWaysFrom(shore.point, ways,
-                [&](int next, double gap) { find(next, gap, shore.point, shore.basin); });
+                [&](int next, double gap) { reach(next, gap, shore.point, shore.basin); });
   }
 }
 

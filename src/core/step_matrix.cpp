@@ -15,10 +15,11 @@ StepMatrix::StepMatrix(const ElasticBody& body, const std::vector<int>& free_row
     return place->second;
   };
   for (int node = 0; node < body.num_nodes(); ++node) {
-    if (free_row[static_cast<std::size_t>(node)] < 0) continue;
+    const int row = free_row[static_cast<std::size_t>(node)];
+    if (row < 0) continue;
     mass_nodes_.push_back(node);
-    diagonal_.push_back(find_place(pattern_.num_nodes, pattern_.num_nodes));
-    ++pattern_.num_nodes;
+    diagonal_.push_back(find_place(row / 3, row / 3));
+    pattern_.num_nodes = std::max(pattern_.num_nodes, row / 3 + 1);
   }
   const auto add_shares = [&](const auto& nodes) {
     for (std::size_t a = 0; a < nodes.size(); ++a) {

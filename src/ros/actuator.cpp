@@ -12,7 +12,6 @@ namespace {
 
 constexpr double kQuaternionTolerance = 1e-3;  // Of the norm; what a rounded quaternion is off by.
 constexpr double kSmallestStride = 1.0 / 1024.0;
-constexpr double kShortestPeriod = 1.5;  // Of targets that are rarer than steps. [steps]
 constexpr double kPeriodsToTarget = 1.5;
 constexpr double kWeightOfNewest = 0.25;  // In the average period.
 
@@ -49,24 +48,29 @@ Actuator::Actuator(const Eigen::Isometry3d& X_WM, const MotionLimits& limits, do
       time_step_(time_step),
       X_WM_(X_WM),
       X_WM_target_(X_WM),
-      steps_since_target_(StepsThatEndAMotion()) {}
+      steps_since_target_(1 + LongestPause()) {}
 
-/// After so many without a target the next one begins a motion.
-int Actuator::StepsThatEndAMotion() const {
-  return 1 + static_cast<int>(limits_.longest_command_period / time_step_);
+/// Targets farther apart than this do not begin a motion.
+int Actuator::LongestPeriod() const {
+  constexpr double kRounding = 1e-6;
+  return static_cast<int>(limits_.longest_command_period / time_step_ + kRounding);
 }
+
+/// After more steps than this without a target a motion is over; one that comes late does not end
+/// it.
+int Actuator::LongestPause() const { return 2 * LongestPeriod(); }
 
 void Actuator::SetTarget(const Eigen::Isometry3d& X_WM) {
   X_WM_target_ = X_WM;
   if (steps_since_target_ == 0) return;  // It replaces one that came in the same step.
-  if (steps_since_target_ >= StepsThatEndAMotion()) {
-    target_period_ = 0.0;
-  } else if (target_period_ == 0.0) {
-    target_period_ = steps_since_target_;
-  } else {
+  if (target_period_ > 0.0 && steps_since_target_ <= LongestPause()) {
     target_period_ += kWeightOfNewest * (steps_since_target_ - target_period_);
+  } else {
+    target_period_ = steps_since_target_ <= LongestPeriod() ? steps_since_target_ : 0.0;
   }
-  steps_to_target_ = target_period_ < kShortestPeriod ? 1.0 : kPeriodsToTarget * target_period_;
+  // At once while there is a target for every step, and from there on without a jump.
+  steps_to_target_ = std::max(
+      1.0, std::min(kPeriodsToTarget * target_period_, 1.0 + 4.0 * (target_period_ - 1.0)));
   steps_since_target_ = 0;
 }
 
@@ -95,8 +99,8 @@ Eigen::Isometry3d Actuator::NextPose() const {
 void Actuator::OnStep(const Eigen::Isometry3d& X_WM, bool undone) {
   X_WM_ = X_WM;
   stride_ = undone ? std::max(kSmallestStride, 0.5 * stride_) : std::min(1.0, 2.0 * stride_);
-  steps_to_target_ = std::max(1.0, steps_to_target_ - 1.0);
-  steps_since_target_ = std::min(steps_since_target_ + 1, StepsThatEndAMotion());
+  if (!undone) steps_to_target_ = std::max(1.0, steps_to_target_ - 1.0);
+  steps_since_target_ = std::min(steps_since_target_ + 1, 1 + LongestPause());
 }
 
 bool Actuator::IsBehind(double distance) const {

@@ -17,12 +17,13 @@ struct MotionLimits {
 
 /** The thing that holds the mount: goes to where it is told, no faster than its limits, so that a
  far command is a fast motion and not a teleport through the world. Within the limits the mount is
- where it is told to be, exactly, one step after a target that comes by itself.
+ where it is told to be, exactly, one step after a target that comes by itself, and after each of
+ those that come every step.
 
- Targets that come at an even rate, but more rarely than steps, are a motion: the mount takes one
- and a half of their periods to each, and so is still on its way when the next comes, be it a little
- late. One step and a rest instead would be a blow at every command, which the cup's mass and the
- wrench would answer. The mount is then those one and a half periods behind.
+ Targets that come at an even rate, but more rarely than steps, are a motion: from the second one on
+ the mount takes one and a half of their periods to each, and so is still on its way when the next
+ comes, be it a little late. One step and a rest instead would be a blow at every command, which the
+ cup's mass and the wrench would answer. The mount is then those one and a half periods behind.
 
  When the simulator had to undo a step, the next attempt goes half as far, again and again, and full
  strides come back as steps succeed. */
@@ -46,7 +47,8 @@ class Actuator {
   bool IsBehind(double distance) const;
 
  private:
-  int StepsThatEndAMotion() const;
+  int LongestPeriod() const;
+  int LongestPause() const;
 
   MotionLimits limits_;
   double time_step_;  // [s]

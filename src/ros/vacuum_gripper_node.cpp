@@ -81,6 +81,7 @@ void VacuumGripperNode::Run() {
         ROS_WARN("time jumped back: cup and free objects are reset");
         tf_buffer_.clear();
         mount_frame_seen_ = false;  // it begins anew where tf then says
+        mount_frame_stamp_ = ros::Time();
         Reset();
         break;
       case StepSchedule::Event::kStep:

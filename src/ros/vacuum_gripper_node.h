@@ -68,7 +68,7 @@ class VacuumGripperNode {
 
   double setpoint_{0.0};          // Last accepted. [Pa] gauge
   bool mount_frame_seen_{false};  // With actuator tf.
-  ros::Time mount_frame_stamp_;   // Of its pose last taken; zero: static.
+  ros::Time mount_frame_stamp_;   // Of its pose last taken; zero: static, or none yet.
 
   tf2_ros::Buffer tf_buffer_;
   tf2_ros::TransformListener tf_listener_{tf_buffer_};

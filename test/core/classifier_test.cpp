@@ -194,10 +194,20 @@ TEST_F(ClassifierTest, BottleneckIsTheWidestOfTheNarrowest) {
 // Against brute force: the largest level above which port and border are joined.
 TEST_F(ClassifierTest, BottleneckAgreesWithBruteForce) {
   unsigned state = 1;
-  for (int repeat = 0; repeat < 200; ++repeat) {
-    for (double& value : phi_) {
-      state = 1664525U * state + 1013904223U;
-      value = (static_cast<double>(state >> 8) / (1U << 24) - 0.5) * 1e-3;
+  const auto random = [&] {  // [0, 1)
+    state = 1664525U * state + 1013904223U;
+    return static_cast<double>(state >> 8) / (1U << 24);
+  };
+  const auto random_point = [&] {
+    return static_cast<int>(random() * static_cast<double>(phi_.size()));
+  };
+  for (int repeat = 0; repeat < 400; ++repeat) {
+    for (double& value : phi_) value = (random() - 0.5) * 1e-3;
+    std::vector<EdgeWay> ways(repeat < 200 ? 0 : 8);
+    for (EdgeWay& way : ways) {
+      way.from = random_point();
+      way.to = random_point();
+      way.gap = (random() - 0.5) * 1e-3;
     }
     const auto joined_above = [&](double level) {
       std::vector<int> stack = surface_.port;
@@ -210,13 +220,19 @@ TEST_F(ClassifierTest, BottleneckAgreesWithBruteForce) {
         seen[i] = true;
         if (std::binary_search(surface_.border.begin(), surface_.border.end(), point)) return true;
         stack.insert(stack.end(), surface_.neighbours[i].begin(), surface_.neighbours[i].end());
+        for (const EdgeWay& way : ways) {
+          if (way.gap < level) continue;
+          if (way.from == point) stack.push_back(way.to);
+          if (way.to == point) stack.push_back(way.from);
+        }
       }
       return false;
     };
     std::vector<double> levels = phi_;
+    for (const EdgeWay& way : ways) levels.push_back(way.gap);
     std::sort(levels.rbegin(), levels.rend());
     const double expected = *std::find_if(levels.begin(), levels.end(), joined_above);
-    EXPECT_EQ(Classify(surface_, phi_, kOpenGap).bottleneck_gaps[0], expected);
+    EXPECT_EQ(Classify(surface_, phi_, kOpenGap, {}, ways).bottleneck_gaps[0], expected);
   }
 }
 

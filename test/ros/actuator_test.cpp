@@ -67,6 +67,41 @@ TEST(Actuator, JumpsOnReset) {
   EXPECT_TRUE(actuator.NextPose().matrix() == At(3.0, 1.0).matrix());
 }
 
+/// In the midst of a motion, right after a target that is 5 mm and .05 rad away.
+Actuator OnItsWay() {
+  Actuator actuator(At(0.0), kLimits, kTimeStep);
+  for (int i = 0; i < 5; ++i) {
+    if (i == 0) actuator.SetTarget(At(0.0));
+    actuator.OnStep(actuator.NextPose(), false);
+  }
+  actuator.SetTarget(At(0.005, 0.05));
+  return actuator;
+}
+
+TEST(Actuator, TurnsEvenlyToo) {
+  const Actuator actuator = OnItsWay();
+  EXPECT_NEAR(actuator.NextPose().translation().x(), 0.005 / 7.5, 1e-12);
+  EXPECT_NEAR(AngleOf(actuator.NextPose()), 0.05 / 7.5, 1e-9);
+}
+
+TEST(Actuator, HalvesItsStrideOnItsWayToo) {
+  Actuator actuator = OnItsWay();
+  actuator.OnStep(At(0.0), true);
+  EXPECT_NEAR(actuator.NextPose().translation().x(), 0.5 * 0.005 / 7.5, 1e-12);
+}
+
+TEST(Actuator, TakesTheLastOfSeveralTargetsInAStep) {
+  Actuator actuator = OnItsWay();
+  actuator.SetTarget(At(0.006));
+  EXPECT_NEAR(actuator.NextPose().translation().x(), 0.006 / 7.5, 1e-12);
+}
+
+TEST(Actuator, JumpsOnItsWayToo) {
+  Actuator actuator = OnItsWay();
+  actuator.JumpToTarget();
+  EXPECT_TRUE(actuator.NextPose().matrix() == At(0.005, 0.05).matrix());
+}
+
 constexpr double kStride = 0.1 * kTimeStep;  // [m]
 
 /// Targets on a motion at 0.1 m/s along x, so many steps apart. @returns where the mount is after
@@ -109,6 +144,24 @@ TEST(Actuator, StaysOnItsWayWhenTargetsComeUnevenly) {
   const auto [slowest, fastest] = Speeds(Follow(steps_between, kLimits), 50);
   EXPECT_GT(slowest, 0.08);  // 0 and 0.6 without
   EXPECT_LT(fastest, 0.12);
+}
+
+// As rare as they may be, and now and then later than that.
+TEST(Actuator, StaysOnItsWayWhenATargetIsLate) {
+  std::vector<int> steps_between;
+  for (int i = 0; i < 40; ++i) steps_between.push_back(i % 4 == 3 ? 12 : 9 + i % 3);
+  const auto [slowest, fastest] = Speeds(Follow(steps_between, kLimits), 100);
+  EXPECT_GT(slowest, 0.07);
+  EXPECT_LT(fastest, 0.13);
+}
+
+// Four targets in five steps: no step rests.
+TEST(Actuator, StaysOnItsWayWhenTargetsAreLittleRarerThanSteps) {
+  std::vector<int> steps_between;
+  for (int i = 0; i < 80; ++i) steps_between.push_back(i % 4 == 0 ? 2 : 1);
+  const auto [slowest, fastest] = Speeds(Follow(steps_between, kLimits), 40);
+  EXPECT_GT(slowest, 0.04);
+  EXPECT_LT(fastest, 0.16);
 }
 
 TEST(Actuator, GoesAtOnceToTargetsThatAreNoMotion) {

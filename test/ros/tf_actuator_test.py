@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 """A mount that follows a tf frame, as on a robot's tool."""
 
+import statistics
 import sys
 import time
 import unittest
@@ -9,6 +10,7 @@ import rospy
 import rosgraph
 import rostest
 import tf2_ros
+from geometry_msgs.msg import WrenchStamped
 
 from gripper_client import DOWN, ON, TOUCH, GripperClient, SealState, transform
 
@@ -48,6 +50,16 @@ class TfActuatorTest(unittest.TestCase):
         del listener
         go(TOUCH + 0.001, TOUCH + 0.02)
         gripper.wait_status(SealState.LOST)
+
+        # Evenly, although tf is rarer than steps: the cup's mass would answer every jerk.
+        forces = []
+        subscriber = rospy.Subscriber('/vacuum_gripper/wrench', WrenchStamped,
+                                      lambda message: forces.append(message.wrench.force.z))
+        go(TOUCH + 0.02, 0.3, speed=0.1)
+        subscriber.unregister()
+        steady = forces[len(forces) // 4:len(forces) // 2]  # up there, on its way
+        changes = [abs(after - before) for before, after in zip(steady, steady[1:])]
+        self.assertLess(statistics.mean(changes), 0.05)  # [N] 0.003, and 0.18 with jerks
 
 
 if __name__ == '__main__':

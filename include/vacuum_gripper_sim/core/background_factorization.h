@@ -5,6 +5,7 @@
 #include <mutex>
 #include <thread>
 
+#include "vacuum_gripper_sim/core/node_matrix.h"
 #include "vacuum_gripper_sim/core/sparse_cholesky.h"
 #include "vacuum_gripper_sim/core/step_matrix.h"
 

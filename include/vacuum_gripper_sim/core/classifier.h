@@ -86,10 +86,10 @@ class Classifier {
   const CavitySurface* surface_;
   // The two floods: which basin owns each point, the lowest phi on the way there from its seed, and
   // the points to take, a heap.
-  std::vector<bool> found_;  // by point: by a way that is no narrower than the point
   std::vector<Basin> basin_;
   std::vector<double> bottleneck_;
   std::vector<Shore> shores_;
+  std::vector<bool> reached_in_full_;  // by point: by a way that is no narrower than the point
 
   std::vector<bool> open_, outside_, inside_;  // by point
   std::vector<int> stack_;

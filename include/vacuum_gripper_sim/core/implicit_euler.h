@@ -1,12 +1,12 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <Eigen/SparseCore>
 #include <cstddef>
 #include <variant>
 #include <vector>
 
 #include "vacuum_gripper_sim/core/elastic_body.h"
+#include "vacuum_gripper_sim/core/node_matrix.h"
 #include "vacuum_gripper_sim/core/parameters.h"
 #include "vacuum_gripper_sim/core/point_pack.h"
 #include "vacuum_gripper_sim/core/step_matrix.h"

@@ -5,7 +5,7 @@
 
 namespace vacuum_gripper_sim {
 
-/// A 3 by 3 block. Its columns fill a vector register each; the fourth row means nothing.
+/// A 3 by 3 block. A fourth row of zeros pads its columns to whole vector registers.
 using NodeBlock = Eigen::Matrix<double, 4, 3>;
 
 /// A symmetric matrix made of 3 by 3 blocks, a row and a column of them for each node. Of a block
