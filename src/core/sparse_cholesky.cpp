@@ -22,15 +22,16 @@ void AddChild(const Scalar* update, const std::vector<int>& in_parent, std::size
               std::size_t end, Scalar* target, Index stride) {
   const auto update_stride = 3 * static_cast<Index>(in_parent.size());
   for (std::size_t b = begin; b < end; ++b) {
-    for (int j = 0; j < 3; ++j) {
-      const Scalar* const source = update + (3 * static_cast<Index>(b) + j) * update_stride;
-      Scalar* const column = target + (3 * in_parent[b] + j) * stride;
-      for (std::size_t a = b; a < in_parent.size(); ++a) {
-        Scalar* const to = column + 3 * in_parent[a];
-        const Scalar* const from = source + 3 * a;
-        to[0] += from[0];
-        to[1] += from[1];
-        to[2] += from[2];
+    for (std::size_t a = b; a < in_parent.size(); ++a) {
+      const Scalar* from =
+          update + 3 * (static_cast<Index>(b) * update_stride + static_cast<Index>(a));
+      Scalar* to = target + 3 * (in_parent[b] * stride + in_parent[a]);
+      for (int j = 0; j < 3; ++j, from += update_stride, to += stride) {
+        // All sums before one is stored: the compiler may then make them side by side.
+        const Scalar x = to[0] + from[0], y = to[1] + from[1], z = to[2] + from[2];
+        to[0] = x;
+        to[1] = y;
+        to[2] = z;
       }
     }
   }
