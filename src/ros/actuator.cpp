@@ -13,6 +13,8 @@ namespace {
 constexpr double kQuaternionTolerance = 1e-3;  // Of the norm; what a rounded quaternion is off by.
 constexpr double kSmallestStride = 1.0 / 1024.0;
 constexpr double kPeriodsToTarget = 1.5;
+constexpr double kRamp =
+    4.0;  // From one step to these periods, as targets become rarer than steps.
 constexpr double kWeightOfNewest = 0.25;  // In the average period.
 
 Eigen::Isometry3d ToIsometry(const Eigen::Vector3d& position, const Eigen::Quaterniond& rotation) {
@@ -70,7 +72,7 @@ void Actuator::SetTarget(const Eigen::Isometry3d& X_WM) {
   }
   // At once while there is a target for every step, and from there on without a jump.
   steps_to_target_ = std::max(
-      1.0, std::min(kPeriodsToTarget * target_period_, 1.0 + 4.0 * (target_period_ - 1.0)));
+      1.0, std::min(kPeriodsToTarget * target_period_, 1.0 + kRamp * (target_period_ - 1.0)));
   steps_since_target_ = 0;
 }
 

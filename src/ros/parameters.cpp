@@ -123,22 +123,24 @@ void CheckAllSet(const YAML::Node& root) {
   }
 }
 
-double GetPositive(ParameterReader* reader, const std::string& key, double maximum) {
+/// A number from 0, itself included or not, up to `maximum`.
+double GetBounded(ParameterReader* reader, const std::string& key, bool may_be_zero,
+                  double maximum) {
   const double value = reader->GetDouble(key);
-  if (!(value > 0.0 && value <= maximum)) {
+  if (!((value > 0.0 || (may_be_zero && value == 0.0)) && value <= maximum)) {
     throw std::invalid_argument("parameter " + reader->Name(key) + " = " + Format(value) +
-                                " must be > 0 and <= " + Format(maximum));
+                                " must be " + (may_be_zero ? ">= 0" : "> 0") +
+                                " and <= " + Format(maximum));
   }
   return value;
 }
 
+double GetPositive(ParameterReader* reader, const std::string& key, double maximum) {
+  return GetBounded(reader, key, false, maximum);
+}
+
 double GetNonNegative(ParameterReader* reader, const std::string& key, double maximum) {
-  const double value = reader->GetDouble(key);
-  if (!(value >= 0.0 && value <= maximum)) {
-    throw std::invalid_argument("parameter " + reader->Name(key) + " = " + Format(value) +
-                                " must be >= 0 and <= " + Format(maximum));
-  }
-  return value;
+  return GetBounded(reader, key, true, maximum);
 }
 
 int GetRealtimePriority(ParameterReader* reader) {
