@@ -42,6 +42,18 @@ void ForColumnTiles(Index end, const Function& f) {
   if (begin < end) f(begin, std::integral_constant<int, kTileColumns / 2>());
 }
 
+/// The same, from the last to the first.
+template <typename Function>
+void ForColumnTilesBackwards(Index end, const Function& f) {
+  if (end % kTileColumns != 0) {
+    end -= kTileColumns / 2;
+    f(end, std::integral_constant<int, kTileColumns / 2>());
+  }
+  for (end -= kTileColumns; end >= 0; end -= kTileColumns) {
+    f(end, std::integral_constant<int, kTileColumns>());
+  }
+}
+
 /// C = -A B^T or C -= A B^T of one tile.
 template <int kRows, int kColumns, Write kWrite, typename Scalar>
 void Tile(Index depth, const Scalar* a, Index stride_a, const Scalar* b, Index stride_b, Scalar* c,
@@ -157,6 +169,39 @@ void SolveNarrow(Index rows, Index columns, const Scalar* L, Index stride_L, Sca
   });
 }
 
+/// x_2 -= L_21 x_1 of the columns of one tile. @param rows Of L_21.
+template <int kColumns, typename Scalar>
+void SubtractColumns(Index rows, const Scalar* L_21, Index stride, const Scalar* x_1, Scalar* x_2) {
+  ForRowTiles<kTileRows<Scalar>>(0, rows, [&](Index row, auto num_rows) {
+    Eigen::Map<Column<Scalar, num_rows>> target(x_2 + row);
+    Column<Scalar, num_rows> sum = target;
+    for (int j = 0; j < kColumns; ++j) {
+      sum -= x_1[j] * Eigen::Map<const Column<Scalar, num_rows>>(L_21 + row + j * stride);
+    }
+    target = sum;
+  });
+}
+
+/// x_1 -= L_21^T x_2 of the columns of one tile. @param rows Of L_21.
+template <int kColumns, typename Scalar>
+void SubtractProducts(Index rows, const Scalar* L_21, Index stride, const Scalar* x_2,
+                      Scalar* x_1) {
+  constexpr int kRows = kTileRows<Scalar> / 2;
+  Column<Scalar, kRows> sums[kColumns];
+  for (int j = 0; j < kColumns; ++j) sums[j].setZero();
+  Index row = 0;
+  for (; row + kRows <= rows; row += kRows) {
+    const Column<Scalar, kRows> x = Eigen::Map<const Column<Scalar, kRows>>(x_2 + row);
+    for (int j = 0; j < kColumns; ++j) {
+      sums[j] += Eigen::Map<const Column<Scalar, kRows>>(L_21 + row + j * stride).cwiseProduct(x);
+    }
+  }
+  for (int j = 0; j < kColumns; ++j) x_1[j] -= sums[j].sum();
+  for (; row < rows; ++row) {
+    for (int j = 0; j < kColumns; ++j) x_1[j] -= L_21[row + j * stride] * x_2[row];
+  }
+}
+
 }  // namespace
 
 template <typename Scalar>
@@ -194,15 +239,47 @@ void SolveOnTheRight(Index rows, Index columns, const Scalar* L, Index stride_L,
   }
 }
 
+template <typename Scalar>
+void EliminateVector(Index rows, Index columns, const Scalar* F, Scalar* x) {
+  ForColumnTiles(columns, [&](Index column, auto num_columns) {
+    constexpr int kColumns = num_columns;
+    const Scalar* const L = F + column * (rows + 1);
+    Scalar* const own = x + column;
+    for (int j = 0; j < kColumns; ++j) {
+      for (int k = 0; k < j; ++k) own[j] -= L[j + k * rows] * own[k];
+      own[j] /= L[j + j * rows];
+    }
+    SubtractColumns<kColumns>(rows - column - kColumns, L + kColumns, rows, own, own + kColumns);
+  });
+}
+
+template <typename Scalar>
+void BackSubstituteVector(Index rows, Index columns, const Scalar* F, Scalar* x) {
+  ForColumnTilesBackwards(columns, [&](Index column, auto num_columns) {
+    constexpr int kColumns = num_columns;
+    const Scalar* const L = F + column * (rows + 1);
+    Scalar* const own = x + column;
+    SubtractProducts<kColumns>(rows - column - kColumns, L + kColumns, rows, own + kColumns, own);
+    for (int j = kColumns; j-- > 0;) {
+      for (int k = j + 1; k < kColumns; ++k) own[j] -= L[k + j * rows] * own[k];
+      own[j] /= L[j + j * rows];
+    }
+  });
+}
+
 template void NegativeSquare(Index, Index, const double*, Index, double*);
 template void NegativeProduct(Index, Index, Index, const double*, Index, const double*, Index,
                               double*);
 template bool FactorizePanel(Index, Index, double*);
 template void SolveOnTheRight(Index, Index, const double*, Index, double*);
+template void EliminateVector(Index, Index, const double*, double*);
+template void BackSubstituteVector(Index, Index, const double*, double*);
 template void NegativeSquare(Index, Index, const float*, Index, float*);
 template void NegativeProduct(Index, Index, Index, const float*, Index, const float*, Index,
                               float*);
 template bool FactorizePanel(Index, Index, float*);
 template void SolveOnTheRight(Index, Index, const float*, Index, float*);
+template void EliminateVector(Index, Index, const float*, float*);
+template void BackSubstituteVector(Index, Index, const float*, float*);
 
 }  // namespace vacuum_gripper_sim

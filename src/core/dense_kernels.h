@@ -34,4 +34,13 @@ template <typename Scalar>
 void SolveOnTheRight(Eigen::Index rows, Eigen::Index columns, const Scalar* L,
                      Eigen::Index stride_L, Scalar* X);
 
+/// x_1 = L_11^-1 x_1, then x_2 -= L_21 x_1, of a panel F = (L_11; L_21).
+/// @param F #rows by #columns, no padding; #columns a multiple of 3. @param[in,out] x #rows.
+template <typename Scalar>
+void EliminateVector(Eigen::Index rows, Eigen::Index columns, const Scalar* F, Scalar* x);
+
+/// x_1 = L_11^-T (x_1 - L_21^T x_2). As EliminateVector().
+template <typename Scalar>
+void BackSubstituteVector(Eigen::Index rows, Eigen::Index columns, const Scalar* F, Scalar* x);
+
 }  // namespace vacuum_gripper_sim

@@ -11,8 +11,6 @@ namespace {
 
 using Eigen::Index;
 using Eigen::VectorXd;
-template <typename Scalar>
-using ConstPanel = Eigen::Map<const Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>>;
 
 /// Extend-add: columns [begin, end) of a child's update, #rows square, go into its parent's front.
 /// @param in_parent Place of every node of the update in the front.
@@ -119,16 +117,15 @@ void SparseCholesky::Eliminate(const Numbers<Scalar>& numbers, const VectorXd& b
   }
   auto work = numbers.below.Shape(largest_front_);
   for (const Supernode& front : supernodes_) {
-    const ConstPanel<Scalar> F(numbers.factor.data() + front.offset, 3 * front.num_rows(),
-                               3 * front.width);
-    auto own = z.segment(3 * front.first, 3 * front.width);
-    F.topRows(F.cols()).template triangularView<Eigen::Lower>().solveInPlace(own);
-    if (front.num_below() == 0) continue;
-    auto below = work.head(3 * front.num_below());
-    below.noalias() = F.bottomRows(F.rows() - F.cols()) * own;
-    for (int r = 0; r < front.num_below(); ++r) {
-      z.template segment<3>(3 * front.rows[static_cast<std::size_t>(front.width + r)]) -=
-          below.template segment<3>(3 * r);
+    const Index rows = 3 * front.num_rows();
+    const Index own = 3 * front.width;
+    work.head(own) = z.segment(3 * front.first, own);
+    work.segment(own, rows - own).setZero();
+    EliminateVector(rows, own, numbers.factor.data() + front.offset, work.data());
+    z.segment(3 * front.first, own) = work.head(own);
+    for (int r = front.width; r < front.num_rows(); ++r) {
+      z.template segment<3>(3 * front.rows[static_cast<std::size_t>(r)]) +=
+          work.template segment<3>(3 * r);
     }
   }
   *y = z.template cast<double>();
@@ -141,18 +138,15 @@ void SparseCholesky::BackSubstitute(const Numbers<Scalar>& numbers, const Vector
   z = y.template cast<Scalar>();
   auto work = numbers.below.Shape(largest_front_);
   for (auto front = supernodes_.rbegin(); front != supernodes_.rend(); ++front) {
-    const ConstPanel<Scalar> F(numbers.factor.data() + front->offset, 3 * front->num_rows(),
-                               3 * front->width);
-    auto own = z.segment(3 * front->first, 3 * front->width);
-    if (front->num_below() > 0) {
-      auto below = work.head(3 * front->num_below());
-      for (int r = 0; r < front->num_below(); ++r) {
-        below.template segment<3>(3 * r) =
-            z.template segment<3>(3 * front->rows[static_cast<std::size_t>(front->width + r)]);
-      }
-      own.noalias() -= F.bottomRows(F.rows() - F.cols()).transpose() * below;
+    const Index rows = 3 * front->num_rows();
+    const Index own = 3 * front->width;
+    work.head(own) = z.segment(3 * front->first, own);
+    for (int r = front->width; r < front->num_rows(); ++r) {
+      work.template segment<3>(3 * r) =
+          z.template segment<3>(3 * front->rows[static_cast<std::size_t>(r)]);
     }
-    F.topRows(F.cols()).template triangularView<Eigen::Lower>().transpose().solveInPlace(own);
+    BackSubstituteVector(rows, own, numbers.factor.data() + front->offset, work.data());
+    z.segment(3 * front->first, own) = work.head(own);
   }
   x->resize(size_);
   for (std::size_t k = 0; k < node_at_.size(); ++k) {

@@ -87,5 +87,37 @@ TYPED_TEST(DenseKernels, SolvesOnTheRight) {
   }
 }
 
+TYPED_TEST(DenseKernels, VectorsAreEliminatedAndSubstitutedAsByTheWholeMatrix) {
+  using Matrix = typename TestFixture::Matrix;
+  using Vector = Eigen::Matrix<TypeParam, Eigen::Dynamic, 1>;
+  for (const Index rows : kRows) {
+    const Matrix L = TestFixture::PositiveDefinite(rows).llt().matrixL();
+    for (const Index columns : kColumns) {
+      if (columns > rows) continue;
+      const Matrix F = L.leftCols(columns);
+      const auto L_11 = F.topRows(columns).template triangularView<Eigen::Lower>();
+      const auto L_21 = F.bottomRows(rows - columns);
+      const Vector x = Vector::Random(rows);
+
+      Vector eliminated = x;
+      EliminateVector(rows, columns, F.data(), eliminated.data());
+      Vector expected = x;
+      auto head = expected.head(columns);
+      L_11.solveInPlace(head);
+      expected.tail(rows - columns) -= L_21 * expected.head(columns);
+      EXPECT_LT((eliminated - expected).norm(), TestFixture::kError * x.norm())
+          << rows << " " << columns;
+
+      Vector substituted = x;
+      BackSubstituteVector(rows, columns, F.data(), substituted.data());
+      expected = x;
+      expected.head(columns) -= L_21.transpose() * x.tail(rows - columns);
+      L_11.transpose().solveInPlace(head);
+      EXPECT_LT((substituted - expected).norm(), TestFixture::kError * x.norm())
+          << rows << " " << columns;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace vacuum_gripper_sim
