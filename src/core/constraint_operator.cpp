@@ -272,18 +272,26 @@ void ConstraintOperator::GapChanges(const SystemVector& y, VectorXd* changes) co
   if (!plain_) changes->noalias() += h_ * J_ * y.bodies;
 }
 
-void ConstraintOperator::AddForces(const VectorXd& lambda, SystemVector* y) const {
+/// Calls f(compliance, forces) for every piece, with the forces along its columns.
+template <typename Function>
+void ConstraintOperator::ForEachPiece(const VectorXd& lambda, const Function& f) const {
   for (const Piece& piece : pieces_) {
     const ContactCompliance::Group& group = W_.groups[piece.group];
     const auto of_group = lambda.segment(group.first, group.size());
     if (plain_) {
-      piece.compliance.AddForces(of_group, &y->cup);
+      f(piece.compliance, of_group);
     } else {
       auto by_column = piece.by_column.Shape(piece.H.cols());
       by_column.noalias() = piece.H.transpose() * of_group;
-      piece.compliance.AddForces(by_column, &y->cup);
+      f(piece.compliance, by_column);
     }
   }
+}
+
+void ConstraintOperator::AddForces(const VectorXd& lambda, SystemVector* y) const {
+  ForEachPiece(lambda, [&](const DelassusOperator& compliance, const auto& forces) {
+    compliance.AddForces(forces, &y->cup);
+  });
   for (std::size_t body = 0; body < bodies_.size() && !plain_; ++body) {
     y->bodies.segment<6>(6 * static_cast<Index>(body)) +=
         bodies_[body].M_inverse * ImpulseOn(body, lambda);
@@ -291,17 +299,9 @@ void ConstraintOperator::AddForces(const VectorXd& lambda, SystemVector* y) cons
 }
 
 void ConstraintOperator::AddImpulses(const VectorXd& lambda, SystemVector* b) const {
-  for (const Piece& piece : pieces_) {
-    const ContactCompliance::Group& group = W_.groups[piece.group];
-    const auto of_group = lambda.segment(group.first, group.size());
-    if (plain_) {
-      piece.compliance.AddImpulses(of_group, &b->cup);
-    } else {
-      auto by_column = piece.by_column.Shape(piece.H.cols());
-      by_column.noalias() = piece.H.transpose() * of_group;
-      piece.compliance.AddImpulses(by_column, &b->cup);
-    }
-  }
+  ForEachPiece(lambda, [&](const DelassusOperator& compliance, const auto& forces) {
+    compliance.AddImpulses(forces, &b->cup);
+  });
   for (std::size_t body = 0; body < bodies_.size() && !plain_; ++body) {
     b->bodies.segment<6>(6 * static_cast<Index>(body)) += ImpulseOn(body, lambda);
   }

@@ -36,7 +36,7 @@ WRONG = {
     'initial_rotation': [[0.0, 0.0, 0.0, 0.0], [1.0, 0.0, 0.0, 0.1, 0.0]],
     'max_speed': [0.0, -1.0],
     'max_angular_speed': [0.0],
-    'longest_command_period': [-0.1, 11.0],
+    'longest_command_period': [-0.1, 11.0, float('nan')],
     'gravity': [[0.0, 0.0], -9.81],
     'roughness': [-1.0e-6],
     'friction': [-0.1, float('nan'), [0.5]],

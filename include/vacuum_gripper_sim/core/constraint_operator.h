@@ -104,6 +104,8 @@ class ConstraintOperator {
   void AddBodyEntries(const Contact& contact, int object, double sign, const ContactRows& rows);
   static void Compress(Eigen::Index num_rows, Piece* piece);
   void UpdateW();
+  template <typename Function>
+  void ForEachPiece(const Eigen::VectorXd& lambda, const Function& f) const;
   RigidWorld::Vector6d ImpulseOn(std::size_t body, const Eigen::VectorXd& lambda) const;
 
   const ImplicitEuler* system_;
