@@ -13,6 +13,8 @@ using Eigen::VectorXd;
 
 /// What taking a finished factorisation costs, in CG iterations: a new W.
 constexpr int kTakingCost = 3;
+/// Steps without a try, at most.
+constexpr int kLongestPause = 7;
 
 }  // namespace
 
@@ -29,15 +31,13 @@ bool LinearSolver::Compute() {
   const bool old = iterations_ > 0 && step_ - factorized_step_ + 1 >= parameters_.refactor_interval;
   const bool due = old || WornOut(parameters_.max_iterations);
   const bool worth_taking = old || WornOut(kTakingCost);
-  // In vain, before a factorisation after all: a cup that moves so fast most likely still does.
-  const bool gave_up = iterations_before_ > 0;
+  bool good = usable_ && MayTry();
   ++step_;
   iterations_since_ += iterations_;
   iterations_ = 0;
   iterations_before_ = 0;
   factorizations_ = 0;
 
-  bool good = usable_ && !gave_up;
   switch (parameters_.method) {
     case LinearSolverMethod::kDirect:
       good = false;
@@ -49,7 +49,23 @@ bool LinearSolver::Compute() {
       good = ExchangeWithBackground(worth_taking) && good;
       break;
   }
+  tried_ = good;
   return good || Renew();
+}
+
+/// Where the last step iterated in vain, the cup moves fast and most likely still does: after the
+/// n-th such try in a row 2^n - 1 steps make none.
+bool LinearSolver::MayTry() {
+  const bool in_vain = iterations_before_ > 0;
+  if (in_vain) {
+    pause_ = std::min(2 * pause_ + 1, kLongestPause);
+    pause_left_ = pause_;
+  } else if (tried_) {
+    pause_ = 0;
+  }
+  if (pause_left_ == 0) return true;
+  --pause_left_;
+  return false;
 }
 
 /// Once the second thread has finished, takes the result, if that is worth it, and hands over this
@@ -75,10 +91,11 @@ bool LinearSolver::ExchangeWithBackground(bool worth_taking) {
   return positive_definite;
 }
 
-/// Will more than the step's iterations be needed at the pace so far?
+/// Will more than max_iterations be needed at the pace so far? What earlier solves of the step took
+/// does not count: it is spent either way.
 bool LinearSolver::Hopeless(int iterations, double start, double now, double bound) const {
   constexpr int kTrial = 2;
-  const int left = parameters_.max_iterations - (iterations_ - iterations_before_);
+  const int left = parameters_.max_iterations - iterations;
   if (iterations < kTrial) return left <= 0;
   return now * std::pow(now / start, static_cast<double>(left) / iterations) > bound;
 }

@@ -225,14 +225,54 @@ TEST(LinearSolver, GivesUpWhereAFactorisationIsTooOld) {
   ASSERT_TRUE(solver.Renew());
   EXPECT_TRUE(solver.current());
   EXPECT_LT((block.Dense() * Solve(b, block.system(), &solver) - b).norm(), 1e-9 * b.norm());
+}
 
-  // The next step does not try; the one after it does.
-  block.Bend(0.01);
+// In vain once, twice, ...: 1, 3, 7, 7 steps without a try; after a good one it begins anew.
+TEST(LinearSolver, TriesLessOftenTheLongerItIsInVain) {
+  BendingBlock block;
+  block.Linearize();
+  LinearSolverParameters parameters = With(LinearSolverMethod::kConjugateGradient, 1000);
+  parameters.max_iterations = 3;
+  LinearSolver solver(parameters, block.system());
   ASSERT_TRUE(solver.Compute());
-  EXPECT_FALSE(solver.old());
-  block.Bend(0.01);
+  const Eigen::VectorXd b = Eigen::VectorXd::Ones(block.size());
+  const auto step = [&](double angle) {
+    block.Turn(angle);
+    EXPECT_TRUE(solver.Compute());
+    if (!solver.old()) return false;
+    const Touching nothing(*block.system(), solver, {});
+    SystemVector dv{solver.factorization().Solve(b), Eigen::VectorXd(0)};
+    Eigen::VectorXd no_forces(0);
+    if (!solver.Refine({b, Eigen::VectorXd(0)}, nothing.constraints(), {}, &dv, &no_forces)) {
+      EXPECT_TRUE(solver.Renew());
+    }
+    return true;
+  };
+  for (const int pause : {1, 3, 7, 7}) {
+    EXPECT_TRUE(step(1.0));
+    for (int i = 0; i < pause; ++i) EXPECT_FALSE(step(1.0)) << pause;
+  }
+  EXPECT_TRUE(step(0.0));
+  EXPECT_TRUE(step(1.0));
+  EXPECT_FALSE(step(1.0));
+  EXPECT_TRUE(step(0.0));
+}
+
+// What an earlier solve of the same step took is not held against the next.
+TEST(LinearSolver, EverySolveOfAStepHasItsOwnIterations) {
+  BendingBlock block;
+  block.Linearize();
+  LinearSolverParameters parameters = With(LinearSolverMethod::kConjugateGradient, 1000);
+  parameters.max_iterations = 12;
+  LinearSolver solver(parameters, block.system());
   ASSERT_TRUE(solver.Compute());
-  EXPECT_TRUE(solver.old());
+  block.Bend(0.03);
+  ASSERT_TRUE(solver.Compute());
+  for (int solve = 1; solve <= 4; ++solve) {
+    Solve(Eigen::VectorXd::Random(block.size()), block.system(), &solver);  // expects an end
+    EXPECT_GT(solver.iterations(), 3 * solve);
+  }
+  EXPECT_GT(solver.iterations(), parameters.max_iterations);
 }
 
 // A single-precision factor is never exact, and renewing it makes one that is.

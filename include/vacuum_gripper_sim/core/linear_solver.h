@@ -24,8 +24,8 @@ namespace vacuum_gripper_sim {
  average step since, the factorisation's own cost shared among them, and after `refactor_interval`
  steps if they iterate. kConjugateGradient makes it then and there. kAsynchronous has a second
  thread factorise one A after the other and takes over what is due; how old its factorisation is
- depends on the threads' speed. Where the iterations of a step do not end, its A is factorised at
- once, and the next step's too. */
+ depends on the threads' speed. Where iterations do not end, the step's A is factorised at once, and
+ those of the next steps too, the more of them the more often in a row that happens. */
 class LinearSolver {
  public:
   /// @param system Its A_ff is the matrix; must outlive this.
@@ -71,7 +71,7 @@ class LinearSolver {
    @param held Indices of its rows. @param[in,out] dv Motion. [m/s]
    @param[in,out] lambda A force for every row. [N]
    @returns false if |r| <= tolerance max(|b|, ImplicitEuler::ImpulseScale()) is out of reach of
-   what is left of the step's iterations.
+   max_iterations.
 
    [Gould 2001] N. I. M. Gould, M. E. Hribar, J. Nocedal, "On the solution of equality constrained
    quadratic programming problems arising in optimization", SIAM J. Sci. Comput. 23(4). */
@@ -82,6 +82,7 @@ class LinearSolver {
   int factorizations() const { return factorizations_; }  ///< On this thread, since Compute().
 
  private:
+  bool MayTry();
   bool Hopeless(int iterations, double start, double now, double bound) const;
   bool WornOut(int cost) const;
   bool FactorizeWith(Precision precision);
@@ -100,6 +101,9 @@ class LinearSolver {
   int iterations_{0};
   int iterations_before_{0};  // of the step, with factorisations given up since
   int factorizations_{0};
+  bool tried_{false};  // to do the last step with an earlier factorisation
+  int pause_{0};       // steps without a try, after the last ones in vain
+  int pause_left_{0};  // of these
   // Of Refine().
   SystemVector r_, p_, Ap_;  // residual, direction and its product with A
   SystemVector y_, z_;       // of r_ in the preconditioner, half way and at its end
