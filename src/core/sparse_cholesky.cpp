@@ -115,7 +115,7 @@ void SparseCholesky::Eliminate(const Numbers<Scalar>& numbers, const VectorXd& b
     z.template segment<3>(3 * static_cast<Index>(k)) =
         b.segment<3>(3 * node_at_[k]).template cast<Scalar>();
   }
-  auto work = numbers.below.Shape(largest_front_);
+  auto work = numbers.front_rows.Shape(largest_front_);
   for (const Supernode& front : supernodes_) {
     const Index rows = 3 * front.num_rows();
     const Index own = 3 * front.width;
@@ -136,7 +136,7 @@ void SparseCholesky::BackSubstitute(const Numbers<Scalar>& numbers, const Vector
                                     VectorXd* x) const {
   auto z = numbers.solution.Shape(size_);
   z = y.template cast<Scalar>();
-  auto work = numbers.below.Shape(largest_front_);
+  auto work = numbers.front_rows.Shape(largest_front_);
   for (auto front = supernodes_.rbegin(); front != supernodes_.rend(); ++front) {
     const Index rows = 3 * front->num_rows();
     const Index own = 3 * front->width;
@@ -219,7 +219,7 @@ void SparseCholesky::EliminateColumns(const Numbers<Scalar>& numbers,
     Scalar* const Y_own = values.data() + block.offset;
     SolveOnTheRight(block.num_columns, own, panel, rows, Y_own);
     if (rows == own) continue;
-    auto update = numbers.below.Shape(block.num_columns, rows - own);
+    auto update = numbers.front_rows.Shape(block.num_columns, rows - own);
     NegativeProduct(block.num_columns, rows - own, own, Y_own, block.num_columns, panel + own, rows,
                     update.data());
     for (int r = 0; r < front.num_below(); ++r) {

@@ -92,7 +92,7 @@ class SparseCholesky {
   struct Numbers {
     std::vector<Scalar> factor;
     std::array<std::vector<Scalar>, 2> updates;
-    mutable MatrixMemory<Scalar> solution, below;  // of solves: of all rows, of those below a front
+    mutable MatrixMemory<Scalar> solution, front_rows;  // of solves: of all rows, of a front
 
     /// What a front leaves to its parent, 3 #below square.
     Scalar* UpdateOf(const Supernode& front) {
