@@ -43,12 +43,13 @@ class BendingBlock {
   Eigen::Matrix3Xd x_ = mesh_.nodes;
 };
 
-LinearSolverParameters With(LinearSolverMethod method, int refactor_interval = 3) {
+LinearSolverParameters With(LinearSolverMethod method, int refactor_interval = 3,
+                            int max_iterations = 50) {
   LinearSolverParameters parameters;
   parameters.method = method;
   parameters.precision = Precision::kDouble;
   parameters.tolerance = 1e-10;
-  parameters.max_iterations = 50;
+  parameters.max_iterations = max_iterations;
   parameters.refactor_interval = refactor_interval;
   return parameters;
 }
@@ -209,9 +210,7 @@ TEST(LinearSolver, HeldContactsKeepTheirGaps) {
 TEST(LinearSolver, GivesUpWhereAFactorisationIsTooOld) {
   BendingBlock block;
   block.Linearize();
-  LinearSolverParameters parameters = With(LinearSolverMethod::kConjugateGradient, 1000);
-  parameters.max_iterations = 3;
-  LinearSolver solver(parameters, block.system());
+  LinearSolver solver(With(LinearSolverMethod::kConjugateGradient, 1000, 3), block.system());
   ASSERT_TRUE(solver.Compute());
   block.Turn(1.0);
   ASSERT_TRUE(solver.Compute());
@@ -231,9 +230,7 @@ TEST(LinearSolver, GivesUpWhereAFactorisationIsTooOld) {
 TEST(LinearSolver, TriesLessOftenTheLongerItIsInVain) {
   BendingBlock block;
   block.Linearize();
-  LinearSolverParameters parameters = With(LinearSolverMethod::kConjugateGradient, 1000);
-  parameters.max_iterations = 3;
-  LinearSolver solver(parameters, block.system());
+  LinearSolver solver(With(LinearSolverMethod::kConjugateGradient, 1000, 3), block.system());
   ASSERT_TRUE(solver.Compute());
   const Eigen::VectorXd b = Eigen::VectorXd::Ones(block.size());
   const auto step = [&](double angle) {
@@ -262,9 +259,7 @@ TEST(LinearSolver, TriesLessOftenTheLongerItIsInVain) {
 TEST(LinearSolver, EverySolveOfAStepHasItsOwnIterations) {
   BendingBlock block;
   block.Linearize();
-  LinearSolverParameters parameters = With(LinearSolverMethod::kConjugateGradient, 1000);
-  parameters.max_iterations = 12;
-  LinearSolver solver(parameters, block.system());
+  LinearSolver solver(With(LinearSolverMethod::kConjugateGradient, 1000, 12), block.system());
   ASSERT_TRUE(solver.Compute());
   block.Bend(0.03);
   ASSERT_TRUE(solver.Compute());
@@ -272,7 +267,7 @@ TEST(LinearSolver, EverySolveOfAStepHasItsOwnIterations) {
     Solve(Eigen::VectorXd::Random(block.size()), block.system(), &solver);  // expects an end
     EXPECT_GT(solver.iterations(), 3 * solve);
   }
-  EXPECT_GT(solver.iterations(), parameters.max_iterations);
+  EXPECT_GT(solver.iterations(), 12);
 }
 
 // A single-precision factor is never exact, and renewing it makes one that is.
