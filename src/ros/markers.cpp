@@ -13,8 +13,11 @@ namespace {
 using visualization_msgs::Marker;
 
 constexpr double kMetresPerNewton =
-    0.008;                                 // Length of the force arrow: 5 N are one cup's diameter.
-constexpr double kSmallestForce = 0.02;    // Below this there is no direction worth drawing. [N]
+    0.008;                               // Length of the force arrow: 5 N are one cup's diameter.
+constexpr double kSmallestForce = 0.02;  // Below this there is no direction worth drawing. [N]
+constexpr double kShaftWidth = 2.0e-3;   // Of the arrow. [m]
+constexpr double kHeadWidth = 4.5e-3;
+constexpr double kHeadLength = 6.0e-3;
 constexpr double kWallThickness = 3.5e-3;  // Zones shine through up to here ... [m]
 constexpr double kOpaqueThickness = 6e-3;  // ... and no more from here on. [m]
 constexpr double kMaxTint = 0.65;
@@ -75,13 +78,15 @@ Marker PaintForce(const StepResult& result, const std_msgs::Header& header) {
     marker.action = Marker::DELETE;
     return marker;
   }
-  marker.scale.x = 2.0e-3;  // Shaft, head and head's length. [m]
-  marker.scale.y = 4.5e-3;
-  marker.scale.z = 6.0e-3;
-  marker.color = ToColor(Eigen::Vector3d(0.95, 0.45, 0.10));
   const Eigen::Vector3d force_W = result.X_WM.linear() * result.force_M;
   // A pull ends at the mount's height, a push begins there: the arrow is never inside the object.
   const Eigen::Vector3d arrow_W = kMetresPerNewton * force_W;
+  // Shorter than its head it shrinks as a whole, or rviz would squash it into a disc.
+  const double share = std::min(1.0, arrow_W.norm() / kHeadLength);
+  marker.scale.x = share * kShaftWidth;
+  marker.scale.y = share * kHeadWidth;
+  marker.scale.z = share * kHeadLength;
+  marker.color = ToColor(Eigen::Vector3d(0.95, 0.45, 0.10));
   const Eigen::Vector3d mount_W = result.X_WM * kArrowOffset;
   const Eigen::Vector3d foot_W = result.force_M.z() > 0.0 ? mount_W - arrow_W : mount_W;
   marker.points = {ToPoint(foot_W), ToPoint(foot_W + arrow_W)};
