@@ -13,8 +13,8 @@ namespace {
 constexpr double kQuaternionTolerance = 1e-3;  // Of the norm; what a rounded quaternion is off by.
 constexpr double kSmallestStride = 1.0 / 1024.0;
 constexpr double kPeriodsToTarget = 1.5;
-constexpr double kRamp =
-    4.0;  // From one step to these periods, as targets become rarer than steps.
+// From one step to these periods, as targets become rarer than steps.
+constexpr double kRamp = 4.0;
 constexpr double kWeightOfNewest = 0.25;  // In the average period.
 
 Eigen::Isometry3d ToIsometry(const Eigen::Vector3d& position, const Eigen::Quaterniond& rotation) {
