@@ -74,6 +74,14 @@ void Tile(Index depth, const Scalar* a, Index stride_a, const Scalar* b, Index s
   }
 }
 
+/// 1 / L_jj of a diagonal tile.
+template <int kColumns, typename Scalar>
+Column<Scalar, kColumns> InverseDiagonal(const Scalar* L, Index stride) {
+  Column<Scalar, kColumns> inverse;
+  for (int j = 0; j < kColumns; ++j) inverse[j] = Scalar(1) / L[j * (stride + 1)];
+  return inverse;
+}
+
 /// X = X L^-T of one tile. @param inverse_diagonal Of L.
 template <int kRows, int kColumns, typename Scalar>
 void SolveTile(const Scalar* L, Index stride_L, const Scalar* inverse_diagonal, Scalar* X,
@@ -155,16 +163,13 @@ template <typename Scalar>
 void SolveNarrow(Index rows, Index columns, const Scalar* L, Index stride_L, Scalar* X) {
   ForColumnTiles(columns, [&](Index column, auto num_columns) {
     constexpr int kColumns = num_columns;
-    Scalar inverse_diagonal[kColumns];
-    for (int j = 0; j < kColumns; ++j) {
-      inverse_diagonal[j] = Scalar(1) / L[(column + j) * (stride_L + 1)];
-    }
+    const Scalar* const L_own = L + column * (stride_L + 1);
+    const Column<Scalar, kColumns> inverse_diagonal = InverseDiagonal<kColumns>(L_own, stride_L);
     ForRowTiles<kTileRows<Scalar>>(0, rows, [&](Index row, auto num_rows) {
       Scalar* const target = X + row + column * rows;
       Tile<num_rows, kColumns, Write::kSubtract>(column, X + row, rows, L + column, stride_L,
                                                  target, rows);
-      SolveTile<num_rows, kColumns>(L + column * (stride_L + 1), stride_L, inverse_diagonal, target,
-                                    rows);
+      SolveTile<num_rows, kColumns>(L_own, stride_L, inverse_diagonal.data(), target, rows);
     });
   });
 }
@@ -245,10 +250,7 @@ void EliminateVector(Index rows, Index columns, const Scalar* F, Scalar* x) {
     constexpr int kColumns = num_columns;
     const Scalar* const L = F + column * (rows + 1);
     Scalar* const own = x + column;
-    for (int j = 0; j < kColumns; ++j) {
-      for (int k = 0; k < j; ++k) own[j] -= L[j + k * rows] * own[k];
-      own[j] /= L[j + j * rows];
-    }
+    SolveTile<1, kColumns>(L, rows, InverseDiagonal<kColumns>(L, rows).data(), own, Index{1});
     SubtractColumns<kColumns>(rows - column - kColumns, L + kColumns, rows, own, own + kColumns);
   });
 }
@@ -260,9 +262,10 @@ void BackSubstituteVector(Index rows, Index columns, const Scalar* F, Scalar* x)
     const Scalar* const L = F + column * (rows + 1);
     Scalar* const own = x + column;
     SubtractProducts<kColumns>(rows - column - kColumns, L + kColumns, rows, own + kColumns, own);
+    const Column<Scalar, kColumns> inverse_diagonal = InverseDiagonal<kColumns>(L, rows);
     for (int j = kColumns; j-- > 0;) {
       for (int k = j + 1; k < kColumns; ++k) own[j] -= L[k + j * rows] * own[k];
-      own[j] /= L[j + j * rows];
+      own[j] *= inverse_diagonal[j];
     }
   });
 }
