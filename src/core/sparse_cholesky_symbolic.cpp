@@ -1,5 +1,4 @@
-// Ordering and structure: everything that depends on the sparsity alone.
-#include <Eigen/OrderingMethods>
+// Structure: everything that depends on the sparsity alone.
 #include <algorithm>
 #include <numeric>
 #include <utility>
@@ -9,9 +8,8 @@
 namespace vacuum_gripper_sim {
 namespace {
 
-/// Neighbours of every node, itself excluded, ascending.
-std::vector<std::vector<int>> NodeGraph(const NodeMatrix& A) {
-  std::vector<std::vector<int>> graph(static_cast<std::size_t>(A.num_nodes));
+NodeGraph MakeNodeGraph(const NodeMatrix& A) {
+  NodeGraph graph(static_cast<std::size_t>(A.num_nodes));
   for (const auto& [row, column] : A.places) {
     if (row == column) continue;
     graph[static_cast<std::size_t>(row)].push_back(column);
@@ -22,75 +20,6 @@ std::vector<std::vector<int>> NodeGraph(const NodeMatrix& A) {
     neighbours.erase(std::unique(neighbours.begin(), neighbours.end()), neighbours.end());
   }
   return graph;
-}
-
-/// Fill-reducing elimination order: order[k] is the k-th node.
-std::vector<int> MinimumDegreeOrder(const std::vector<std::vector<int>>& graph) {
-  const int size = static_cast<int>(graph.size());
-  std::vector<Eigen::Triplet<double>> entries;
-  for (int a = 0; a < size; ++a) {
-    entries.emplace_back(a, a, 1.0);
-    for (const int b : graph[static_cast<std::size_t>(a)]) entries.emplace_back(a, b, 1.0);
-  }
-  Eigen::SparseMatrix<double> pattern(size, size);
-  pattern.setFromTriplets(entries.begin(), entries.end());
-  Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> inverse;
-  Eigen::AMDOrdering<int>()(pattern, inverse);
-  return {inverse.indices().data(), inverse.indices().data() + size};
-}
-
-/// Parent of each position in the elimination tree (Liu's algorithm with path compression).
-std::vector<int> EliminationTree(const std::vector<std::vector<int>>& graph,
-                                 const std::vector<int>& node_at,
-                                 const std::vector<int>& position) {
-  std::vector<int> parent(graph.size(), -1);
-  std::vector<int> ancestor(graph.size(), -1);
-  for (int k = 0; k < static_cast<int>(graph.size()); ++k) {
-    const int node = node_at[static_cast<std::size_t>(k)];
-    for (const int neighbour : graph[static_cast<std::size_t>(node)]) {
-      int i = position[static_cast<std::size_t>(neighbour)];
-      while (i != -1 && i < k) {
-        const int next = ancestor[static_cast<std::size_t>(i)];
-        ancestor[static_cast<std::size_t>(i)] = k;
-        if (next == -1) parent[static_cast<std::size_t>(i)] = k;
-        i = next;
-      }
-    }
-  }
-  return parent;
-}
-
-/// Positions in depth-first order, children before parents.
-std::vector<int> Postorder(const std::vector<int>& parent) {
-  const int size = static_cast<int>(parent.size());
-  std::vector<std::vector<int>> children(parent.size());
-  std::vector<int> stack;
-  for (int k = size - 1; k >= 0; --k) {
-    const int above = parent[static_cast<std::size_t>(k)];
-    if (above < 0) {
-      stack.push_back(k);
-    } else {
-      children[static_cast<std::size_t>(above)].push_back(k);
-    }
-  }
-  std::vector<int> order;
-  while (!stack.empty()) {  // parents before children, then turned round
-    const int k = stack.back();
-    stack.pop_back();
-    order.push_back(k);
-    const auto& below = children[static_cast<std::size_t>(k)];
-    stack.insert(stack.end(), below.begin(), below.end());
-  }
-  std::reverse(order.begin(), order.end());
-  return order;
-}
-
-std::vector<int> Inverse(const std::vector<int>& order) {
-  std::vector<int> position(order.size());
-  for (std::size_t k = 0; k < order.size(); ++k) {
-    position[static_cast<std::size_t>(order[k])] = static_cast<int>(k);
-  }
-  return position;
 }
 
 /// Is merging worth its zeros? Small fronts are slow: there, many zeros are worth it.
@@ -105,8 +34,8 @@ bool WorthMerging(int merged_width, double zero_share) {
 
 void SparseCholesky::Analyze(const NodeMatrix& A) {
   size_ = 3 * A.num_nodes;
-  const std::vector<std::vector<int>> graph = NodeGraph(A);
-  Order(graph);
+  const NodeGraph graph = MakeNodeGraph(A);
+  order_ = FindEliminationOrder(graph);
   FindPieces();
   FindSupernodes(graph);
   MergeSmallSupernodes();
@@ -115,36 +44,25 @@ void SparseCholesky::Analyze(const NodeMatrix& A) {
   MapEntries(A);
 }
 
-void SparseCholesky::Order(const std::vector<std::vector<int>>& graph) {
-  const std::vector<int> by_degree = MinimumDegreeOrder(graph);
-  const std::vector<int> postorder =
-      Postorder(EliminationTree(graph, by_degree, Inverse(by_degree)));
-  node_at_.resize(graph.size());
-  for (std::size_t k = 0; k < graph.size(); ++k) {
-    node_at_[k] = by_degree[static_cast<std::size_t>(postorder[k])];
-  }
-  position_ = Inverse(node_at_);
-  tree_ = EliminationTree(graph, node_at_, position_);
-}
-
 /// Each tree of the elimination forest is a piece.
 void SparseCholesky::FindPieces() {
   num_pieces_ = 0;
-  piece_of_.resize(tree_.size());
-  for (std::size_t k = tree_.size(); k-- > 0;) {
-    piece_of_[static_cast<std::size_t>(node_at_[k])] =
-        tree_[k] < 0 ? num_pieces_++ : PieceOf(node_at_[static_cast<std::size_t>(tree_[k])]);
+  piece_of_.resize(order_.parent.size());
+  for (std::size_t k = order_.parent.size(); k-- > 0;) {
+    piece_of_[static_cast<std::size_t>(order_.node_at[k])] =
+        order_.parent[k] < 0 ? num_pieces_++
+                             : PieceOf(order_.node_at[static_cast<std::size_t>(order_.parent[k])]);
   }
 }
 
-void SparseCholesky::FindSupernodes(const std::vector<std::vector<int>>& graph) {
+void SparseCholesky::FindSupernodes(const NodeGraph& graph) {
   // Structure of every column of L: its own entries of A and what its children leave to it.
   std::vector<std::vector<int>> structure(graph.size());
   for (std::size_t k = 0; k < graph.size(); ++k) {
     std::vector<int>& rows = structure[k];
     rows.push_back(static_cast<int>(k));
-    for (const int neighbour : graph[static_cast<std::size_t>(node_at_[k])]) {
-      const int row = position_[static_cast<std::size_t>(neighbour)];
+    for (const int neighbour : graph[static_cast<std::size_t>(order_.node_at[k])]) {
+      const int row = order_.position[static_cast<std::size_t>(neighbour)];
       if (row > static_cast<int>(k)) rows.push_back(row);
     }
   }
@@ -152,8 +70,8 @@ void SparseCholesky::FindSupernodes(const std::vector<std::vector<int>>& graph) 
     std::vector<int>& rows = structure[k];
     std::sort(rows.begin(), rows.end());
     rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
-    if (tree_[k] < 0) continue;
-    std::vector<int>& above = structure[static_cast<std::size_t>(tree_[k])];
+    if (order_.parent[k] < 0) continue;
+    std::vector<int>& above = structure[static_cast<std::size_t>(order_.parent[k])];
     above.insert(above.end(), rows.begin() + 1, rows.end());
     // Kept short, or a parent of many children grows quadratically.
     std::sort(above.begin(), above.end());
@@ -162,7 +80,7 @@ void SparseCholesky::FindSupernodes(const std::vector<std::vector<int>>& graph) 
 
   supernodes_.clear();
   for (std::size_t k = 0; k < graph.size(); ++k) {
-    const bool continues = k > 0 && tree_[k - 1] == static_cast<int>(k) &&
+    const bool continues = k > 0 && order_.parent[k - 1] == static_cast<int>(k) &&
                            structure[k - 1].size() == structure[k].size() + 1;
     if (continues) {
       ++supernodes_.back().width;
@@ -210,7 +128,7 @@ void SparseCholesky::MergeSmallSupernodes() {
 }
 
 void SparseCholesky::LinkSupernodes() {
-  supernode_of_.resize(node_at_.size());
+  supernode_of_.resize(order_.node_at.size());
   for (std::size_t s = 0; s < supernodes_.size(); ++s) {
     const Supernode& supernode = supernodes_[s];
     std::fill_n(supernode_of_.begin() + supernode.first, supernode.width, static_cast<int>(s));
@@ -261,8 +179,8 @@ void SparseCholesky::MapEntries(const NodeMatrix& A) {
   std::vector<std::vector<Entry>> found(supernodes_.size());
   for (std::size_t block = 0; block < A.places.size(); ++block) {
     // In elimination order; the later one is the row of L.
-    int row = position_[static_cast<std::size_t>(A.places[block].row)];
-    int column = position_[static_cast<std::size_t>(A.places[block].column)];
+    int row = order_.position[static_cast<std::size_t>(A.places[block].row)];
+    int column = order_.position[static_cast<std::size_t>(A.places[block].column)];
     const bool mirrored = row < column;
     if (mirrored) std::swap(row, column);
     const int s = supernode_of_[static_cast<std::size_t>(column)];

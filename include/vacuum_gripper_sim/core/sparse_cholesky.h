@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "vacuum_gripper_sim/core/eliminated_columns.h"
+#include "vacuum_gripper_sim/core/elimination_order.h"
 #include "vacuum_gripper_sim/core/matrix_memory.h"
 #include "vacuum_gripper_sim/core/node_matrix.h"
 #include "vacuum_gripper_sim/core/parameters.h"
@@ -17,8 +18,9 @@ namespace vacuum_gripper_sim {
  matrix made of 3 by 3 node blocks ([Duff 1983], [Liu 1992]).
 
  The elimination works on dense fronts, so that the arithmetic runs in blocked kernels: on the
- quadratic cup several times faster than a column-by-column factorisation. Ordering (minimum
- degree on the graph of nodes) and symbolic factorisation are done once by Analyze().
+ quadratic cup several times faster than a column-by-column factorisation. Ordering
+ (FindEliminationOrder() on the graph of nodes) and symbolic factorisation are done once by
+ Analyze().
 
  The factor's numbers may be in single precision, for twice the speed; what goes in and comes out is
  in double precision all the same, with an error that |L| |L^T| and single rounding make.
@@ -100,9 +102,8 @@ class SparseCholesky {
     }
   };
 
-  void Order(const std::vector<std::vector<int>>& graph);
   void FindPieces();
-  void FindSupernodes(const std::vector<std::vector<int>>& graph);
+  void FindSupernodes(const NodeGraph& graph);
   void MergeSmallSupernodes();
   void LinkSupernodes();
   void PlaceUpdates();
@@ -123,10 +124,8 @@ class SparseCholesky {
 
   Eigen::Index size_{0};           // scalars
   Eigen::Index largest_front_{0};  // rows, scalars
-  std::vector<int> position_;      // of a node in elimination order
-  std::vector<int> node_at_;       // the inverse
-  std::vector<int> tree_;          // elimination tree, by position; -1: root
-  std::vector<int> piece_of_;      // by node
+  EliminationOrder order_;
+  std::vector<int> piece_of_;  // by node
   int num_pieces_{0};
   std::vector<Supernode> supernodes_;
   std::vector<int> supernode_of_;  // by position
