@@ -70,6 +70,17 @@ class Phases {
   StepTimings sum_;
 };
 
+/// Makes a situation's next step.
+void TimeStep(GripSituation* grip, StepStatistics* statistics) {
+  double wall = 0.0;
+  const double begin = ThreadTime();
+  {
+    const Stopwatch stopwatch(&wall);
+    grip->Step();
+  }
+  statistics->Add(ThreadTime() - begin, wall);
+}
+
 void TimeSteps(benchmark::State& state, const char* bell, Situation situation,
                LinearSolverMethod method) {
   GripSituation grip(bell, situation, method);
@@ -80,13 +91,7 @@ void TimeSteps(benchmark::State& state, const char* bell, Situation situation,
   double factorizations = 0.0;
   double iterations = 0.0;
   for (auto _ : state) {
-    double wall = 0.0;
-    const double begin = ThreadTime();
-    {
-      const Stopwatch stopwatch(&wall);
-      grip.Step();
-    }
-    statistics.Add(ThreadTime() - begin, wall);
+    TimeStep(&grip, &statistics);
     const StepResult& result = grip.result();
     phases.Add(result.timings);
     candidates += result.num_candidates;
@@ -101,6 +106,21 @@ void TimeSteps(benchmark::State& state, const char* bell, Situation situation,
   state.counters["iterations_cg"] = Counter(iterations, Counter::kAvgIterations);
   state.counters["undone"] = grip.cycle().undone_steps;
   state.counters["flips"] = grip.cycle().seal_flips;
+}
+
+/// Steps in the air and sealed ones by turns, so that the machine's drift is no part of their
+/// ratio.
+void CompareAir(benchmark::State& state, const char* bell, LinearSolverMethod method) {
+  GripSituation air(bell, Situation::kAir, method);
+  GripSituation sealed(bell, Situation::kSealed, method);
+  const OnOneCore on_one_core;
+  StepStatistics air_statistics, sealed_statistics;
+  for (auto _ : state) {
+    TimeStep(&air, &air_statistics);
+    TimeStep(&sealed, &sealed_statistics);
+  }
+  air_statistics.Report({}, &state);
+  state.counters["over_sealed"] = air_statistics.median_cpu() / sealed_statistics.median_cpu();
 }
 
 /// Steps a grip once more and keeps where it started.
@@ -171,6 +191,11 @@ void RegisterAll() {
   };
   for (const Bell& bell : kBells) {
     const char* const name = bell.name;
+    for (const auto& solver : kMethods) {
+      const LinearSolverMethod method = solver.method;
+      add(std::string(name) + "/air_beside_sealed/" + solver.name, bell.num_steps / 2,
+          [=](benchmark::State& state) { CompareAir(state, name, method); });
+    }
     for (const auto& named : kSituations) {
       const Situation situation = named.situation;
       const bool cycle = situation == Situation::kCycle;

@@ -31,6 +31,7 @@ void ReportTimes(const std::string& clock, const std::vector<double>& times,
 }  // namespace
 
 double StepStatistics::total_cpu() const { return Sum(cpu_); }
+double StepStatistics::median_cpu() const { return Quantile(cpu_, 0.5); }
 
 void StepStatistics::Report(const std::vector<std::pair<std::string, double>>& phases,
                             benchmark::State* state) const {

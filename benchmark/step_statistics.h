@@ -21,7 +21,8 @@ class StepStatistics {
     cpu_.push_back(cpu);
     wall_.push_back(wall);
   }
-  double total_cpu() const;  ///< [s]
+  double total_cpu() const;   ///< [s]
+  double median_cpu() const;  ///< [s]
 
   /** Sets the counters cpu_mean, cpu_median, cpu_p99 and cpu_max, wall_mean, wall_median, wall_p99
    and wall_max, yardstick, and phase_<name> for each phase's mean. [ms]
