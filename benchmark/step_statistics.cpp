@@ -8,14 +8,6 @@
 namespace vacuum_gripper_sim {
 namespace {
 
-/// The smallest value that is not below `share` of all.
-double Quantile(std::vector<double> values, double share) {
-  const auto rank =
-      static_cast<std::ptrdiff_t>(std::ceil(share * static_cast<double>(values.size() - 1)));
-  std::nth_element(values.begin(), values.begin() + rank, values.end());
-  return values[static_cast<std::size_t>(rank)];
-}
-
 double Sum(const std::vector<double>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0);
 }
@@ -30,8 +22,14 @@ void ReportTimes(const std::string& clock, const std::vector<double>& times,
 
 }  // namespace
 
+double Quantile(std::vector<double> values, double share) {
+  const auto rank =
+      static_cast<std::ptrdiff_t>(std::ceil(share * static_cast<double>(values.size() - 1)));
+  std::nth_element(values.begin(), values.begin() + rank, values.end());
+  return values[static_cast<std::size_t>(rank)];
+}
+
 double StepStatistics::total_cpu() const { return Sum(cpu_); }
-double StepStatistics::median_cpu() const { return Quantile(cpu_, 0.5); }
 
 void StepStatistics::Report(const std::vector<std::pair<std::string, double>>& phases,
                             benchmark::State* state) const {

@@ -10,6 +10,9 @@
 
 namespace vacuum_gripper_sim {
 
+/// The smallest value that is not below `share` of all.
+double Quantile(std::vector<double> values, double share);
+
 /// Times of the steps of one case, and what is reported of them. Made before the first step and
 /// reported after the last, it measures the yardstick at both ends.
 class StepStatistics {
@@ -21,8 +24,7 @@ class StepStatistics {
     cpu_.push_back(cpu);
     wall_.push_back(wall);
   }
-  double total_cpu() const;   ///< [s]
-  double median_cpu() const;  ///< [s]
+  double total_cpu() const;  ///< [s]
 
   /** Sets the counters cpu_mean, cpu_median, cpu_p99 and cpu_max, wall_mean, wall_median, wall_p99
    and wall_max, yardstick, and phase_<name> for each phase's mean. [ms]

@@ -74,7 +74,7 @@ void Tile(Index depth, const Scalar* a, Index stride_a, const Scalar* b, Index s
   }
 }
 
-/// 1 / L_jj of a diagonal tile.
+/// 1 / L_jj of a diagonal tile: all at once, for in a solve each division would wait for the last.
 template <int kColumns, typename Scalar>
 Column<Scalar, kColumns> InverseDiagonal(const Scalar* L, Index stride) {
   Column<Scalar, kColumns> inverse;
@@ -84,8 +84,8 @@ Column<Scalar, kColumns> InverseDiagonal(const Scalar* L, Index stride) {
 
 /// X = X L^-T of one tile. @param inverse_diagonal Of L.
 template <int kRows, int kColumns, typename Scalar>
-void SolveTile(const Scalar* L, Index stride_L, const Scalar* inverse_diagonal, Scalar* X,
-               Index stride_X) {
+void SolveTile(const Scalar* L, Index stride_L, const Column<Scalar, kColumns>& inverse_diagonal,
+               Scalar* X, Index stride_X) {
   Column<Scalar, kRows> x[kColumns];
   for (int j = 0; j < kColumns; ++j) {
     x[j] = Eigen::Map<const Column<Scalar, kRows>>(X + j * stride_X);
@@ -95,9 +95,19 @@ void SolveTile(const Scalar* L, Index stride_L, const Scalar* inverse_diagonal, 
   }
 }
 
+/// x = L^-T x of one tile.
+template <int kColumns, typename Scalar>
+void SolveTileTransposed(const Scalar* L, Index stride_L, Scalar* x) {
+  const Column<Scalar, kColumns> inverse_diagonal = InverseDiagonal<kColumns>(L, stride_L);
+  for (int j = kColumns; j-- > 0;) {
+    for (int k = j + 1; k < kColumns; ++k) x[j] -= L[k + j * stride_L] * x[k];
+    x[j] *= inverse_diagonal[j];
+  }
+}
+
 /// Cholesky factorisation of a diagonal tile.
 template <int kColumns, typename Scalar>
-bool FactorizeTile(Scalar* L, Index stride, Scalar* inverse_diagonal) {
+bool FactorizeTile(Scalar* L, Index stride, Column<Scalar, kColumns>* inverse_diagonal) {
   for (int j = 0; j < kColumns; ++j) {
     Scalar* const column = L + j * stride;
     for (int k = 0; k < j; ++k) {
@@ -105,8 +115,8 @@ bool FactorizeTile(Scalar* L, Index stride, Scalar* inverse_diagonal) {
     }
     if (!(column[j] > Scalar(0))) return false;
     column[j] = std::sqrt(column[j]);
-    inverse_diagonal[j] = Scalar(1) / column[j];
-    for (int i = j + 1; i < kColumns; ++i) column[i] *= inverse_diagonal[j];
+    (*inverse_diagonal)[j] = Scalar(1) / column[j];
+    for (int i = j + 1; i < kColumns; ++i) column[i] *= (*inverse_diagonal)[j];
   }
   return true;
 }
@@ -147,8 +157,8 @@ bool FactorizeNarrowPanel(Index rows, Index columns, Scalar* F, Index stride) {
       Tile<num_rows, kColumns, Write::kSubtract>(column, F + row, stride, F + column, stride,
                                                  target + row, stride);
     });
-    Scalar inverse_diagonal[kColumns];
-    positive = positive && FactorizeTile<kColumns>(target + column, stride, inverse_diagonal);
+    Column<Scalar, kColumns> inverse_diagonal;
+    positive = positive && FactorizeTile(target + column, stride, &inverse_diagonal);
     if (!positive) return;
     ForRowTiles<kTileRows<Scalar>>(column + kColumns, rows, [&](Index row, auto num_rows) {
       SolveTile<num_rows, kColumns>(target + column, stride, inverse_diagonal, target + row,
@@ -169,7 +179,7 @@ void SolveNarrow(Index rows, Index columns, const Scalar* L, Index stride_L, Sca
       Scalar* const target = X + row + column * rows;
       Tile<num_rows, kColumns, Write::kSubtract>(column, X + row, rows, L + column, stride_L,
                                                  target, rows);
-      SolveTile<num_rows, kColumns>(L_own, stride_L, inverse_diagonal.data(), target, rows);
+      SolveTile<num_rows, kColumns>(L_own, stride_L, inverse_diagonal, target, rows);
     });
   });
 }
@@ -250,7 +260,7 @@ void EliminateVector(Index rows, Index columns, const Scalar* F, Scalar* x) {
     constexpr int kColumns = num_columns;
     const Scalar* const L = F + column * (rows + 1);
     Scalar* const own = x + column;
-    SolveTile<1, kColumns>(L, rows, InverseDiagonal<kColumns>(L, rows).data(), own, Index{1});
+    SolveTile<1, kColumns>(L, rows, InverseDiagonal<kColumns>(L, rows), own, Index{1});
     SubtractColumns<kColumns>(rows - column - kColumns, L + kColumns, rows, own, own + kColumns);
   });
 }
@@ -262,11 +272,7 @@ void BackSubstituteVector(Index rows, Index columns, const Scalar* F, Scalar* x)
     const Scalar* const L = F + column * (rows + 1);
     Scalar* const own = x + column;
     SubtractProducts<kColumns>(rows - column - kColumns, L + kColumns, rows, own + kColumns, own);
-    const Column<Scalar, kColumns> inverse_diagonal = InverseDiagonal<kColumns>(L, rows);
-    for (int j = kColumns; j-- > 0;) {
-      for (int k = j + 1; k < kColumns; ++k) own[j] -= L[k + j * rows] * own[k];
-      own[j] *= inverse_diagonal[j];
-    }
+    SolveTileTransposed<kColumns>(L, rows, own);
   });
 }
 

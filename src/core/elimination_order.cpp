@@ -1,20 +1,21 @@
 #include "vacuum_gripper_sim/core/elimination_order.h"
 
 #include <Eigen/OrderingMethods>
+#include <Eigen/SparseCore>
 #include <algorithm>
+#include <cstddef>
+#include <mutex>
 #include <numeric>
 #include <random>
 #include <utility>
-
-#ifdef VACUUM_GRIPPER_METIS
-#include <metis.h>
-#endif
 
 namespace vacuum_gripper_sim {
 namespace {
 
 /// Minimum degree is begun from the nodes' own numbers and from so many shuffled ones.
-constexpr unsigned int kShuffles = 8;
+constexpr int kShuffles = 8;
+/// Nested dissection from so many seeds.
+constexpr int kSeeds = 3;
 
 std::vector<int> Inverse(const std::vector<int>& order) {
   std::vector<int> position(order.size());
@@ -24,49 +25,12 @@ std::vector<int> Inverse(const std::vector<int>& order) {
   return position;
 }
 
-/// @param number Of every node: decides among nodes of the same degree.
-std::vector<int> MinimumDegree(const NodeGraph& graph, const std::vector<int>& number) {
-  std::vector<Eigen::Triplet<double>> entries;
-  for (std::size_t a = 0; a < graph.size(); ++a) {
-    entries.emplace_back(number[a], number[a], 1.0);
-    for (const int b : graph[a]) {
-      entries.emplace_back(number[a], number[static_cast<std::size_t>(b)], 1.0);
-    }
+/// Not std::shuffle(), of which every standard library makes another.
+void Shuffle(std::mt19937* random, std::vector<int>* numbers) {
+  for (std::size_t i = numbers->size(); i > 1; --i) {
+    std::swap((*numbers)[i - 1], (*numbers)[(*random)() % i]);
   }
-  const auto size = static_cast<int>(graph.size());
-  Eigen::SparseMatrix<double> pattern(size, size);
-  pattern.setFromTriplets(entries.begin(), entries.end());
-  Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> numbers;
-  Eigen::AMDOrdering<int>()(pattern, numbers);
-
-  std::vector<int> node_at = Inverse(number);
-  std::vector<int> order(graph.size());
-  for (std::size_t k = 0; k < order.size(); ++k) {
-    order[k] = node_at[static_cast<std::size_t>(numbers.indices()[static_cast<Eigen::Index>(k)])];
-  }
-  return order;
 }
-
-#ifdef VACUUM_GRIPPER_METIS
-/// @returns nothing if METIS fails.
-std::vector<int> NestedDissection(const NodeGraph& graph) {
-  std::vector<idx_t> first{0}, neighbours;
-  for (const std::vector<int>& of_node : graph) {
-    neighbours.insert(neighbours.end(), of_node.begin(), of_node.end());
-    first.push_back(static_cast<idx_t>(neighbours.size()));
-  }
-  if (neighbours.empty()) return {};
-  auto size = static_cast<idx_t>(graph.size());
-  std::vector<idx_t> node_at(graph.size()), position(graph.size());
-  idx_t options[METIS_NOPTIONS];
-  METIS_SetDefaultOptions(options);
-  options[METIS_OPTION_SEED] = 1;  // the same order in every run
-  const int status = METIS_NodeND(&size, first.data(), neighbours.data(), nullptr, options,
-                                  node_at.data(), position.data());
-  if (status != METIS_OK) return {};
-  return {node_at.begin(), node_at.end()};
-}
-#endif
 
 /// Parent of each position in the elimination tree (Liu's algorithm with path compression).
 std::vector<int> EliminationTree(const NodeGraph& graph, const std::vector<int>& node_at,
@@ -113,38 +77,75 @@ std::vector<int> Postorder(const std::vector<int>& parent) {
   return order;
 }
 
-}  // namespace
-
-EliminationOrder FindEliminationOrder(const NodeGraph& graph) {
-  EliminationOrder best;
+EliminationOrder FindCheapest(const NodeGraph& graph) {
+  EliminationOrder cheapest;
   double fewest = 0.0;
-  const auto consider = [&](const std::vector<int>& node_at) {
-    if (node_at.size() != graph.size()) return;
-    EliminationOrder order = Postordered(graph, node_at);
+  const auto consider = [&](const std::vector<int>& nodes) {
+    EliminationOrder order = Postordered(graph, nodes);
     const double operations = CountOperations(graph, order);
-    if (best.node_at.empty() || operations < fewest) {
-      best = std::move(order);
+    if (cheapest.node_at.empty() || operations < fewest) {
+      cheapest = std::move(order);
       fewest = operations;
     }
   };
   std::vector<int> number(graph.size());
   std::iota(number.begin(), number.end(), 0);
-  consider(MinimumDegree(graph, number));
+  consider(MinimumDegreeOrder(graph, number));
   std::mt19937 random;
-  for (unsigned int i = 0; i < kShuffles; ++i) {
-    std::shuffle(number.begin(), number.end(), random);
-    consider(MinimumDegree(graph, number));
+  for (int i = 0; i < kShuffles; ++i) {
+    Shuffle(&random, &number);
+    consider(MinimumDegreeOrder(graph, number));
   }
-#ifdef VACUUM_GRIPPER_METIS
-  consider(NestedDissection(graph));
-#endif
-  return best;
+  for (int seed = 1; seed <= kSeeds; ++seed) {
+    const std::vector<int> dissected = NestedDissectionOrder(graph, seed);
+    if (!dissected.empty()) consider(dissected);
+  }
+  return cheapest;
 }
 
-EliminationOrder Postordered(const NodeGraph& graph, const std::vector<int>& node_at) {
-  const std::vector<int> postorder = Postorder(EliminationTree(graph, node_at, Inverse(node_at)));
+}  // namespace
+
+EliminationOrder FindEliminationOrder(const NodeGraph& graph) {
+  // A process tends to simulate the same cup several times: the node on two threads, one of them
+  // for the holding margin. Only one thread may be in METIS.
+  static std::mutex mutex;
+  static NodeGraph last_graph;
+  static EliminationOrder last_order;
+  const std::lock_guard<std::mutex> lock(mutex);
+  if (graph != last_graph) {
+    last_order = FindCheapest(graph);
+    last_graph = graph;
+  }
+  return last_order;
+}
+
+std::vector<int> MinimumDegreeOrder(const NodeGraph& graph, const std::vector<int>& number) {
+  std::vector<Eigen::Triplet<double>> entries;
+  for (std::size_t a = 0; a < graph.size(); ++a) {
+    entries.emplace_back(number[a], number[a], 1.0);
+    for (const int b : graph[a]) {
+      entries.emplace_back(number[a], number[static_cast<std::size_t>(b)], 1.0);
+    }
+  }
+  const auto size = static_cast<int>(graph.size());
+  Eigen::SparseMatrix<double> pattern(size, size);
+  pattern.setFromTriplets(entries.begin(), entries.end());
+  Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> order_of_numbers;
+  Eigen::AMDOrdering<int>()(pattern, order_of_numbers);
+
+  const std::vector<int> node_of = Inverse(number);
+  std::vector<int> nodes;
+  nodes.reserve(graph.size());
+  for (int k = 0; k < size; ++k) {
+    nodes.push_back(node_of[static_cast<std::size_t>(order_of_numbers.indices()[k])]);
+  }
+  return nodes;
+}
+
+EliminationOrder Postordered(const NodeGraph& graph, const std::vector<int>& nodes) {
+  const std::vector<int> postorder = Postorder(EliminationTree(graph, nodes, Inverse(nodes)));
   EliminationOrder order;
-  for (const int k : postorder) order.node_at.push_back(node_at[static_cast<std::size_t>(k)]);
+  for (const int k : postorder) order.node_at.push_back(nodes[static_cast<std::size_t>(k)]);
   order.position = Inverse(order.node_at);
   order.parent = EliminationTree(graph, order.node_at, order.position);
   return order;

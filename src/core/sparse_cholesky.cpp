@@ -111,9 +111,9 @@ template <typename Scalar>
 void SparseCholesky::Eliminate(const Numbers<Scalar>& numbers, const VectorXd& b,
                                VectorXd* y) const {
   auto z = numbers.solution.Shape(size_);
-  for (std::size_t k = 0; k < order_.node_at.size(); ++k) {
+  for (std::size_t k = 0; k < elimination_.node_at.size(); ++k) {
     z.template segment<3>(3 * static_cast<Index>(k)) =
-        b.segment<3>(3 * order_.node_at[k]).template cast<Scalar>();
+        b.segment<3>(3 * elimination_.node_at[k]).template cast<Scalar>();
   }
   auto work = numbers.front_rows.Shape(largest_front_);
   for (const Supernode& front : supernodes_) {
@@ -149,8 +149,8 @@ void SparseCholesky::BackSubstitute(const Numbers<Scalar>& numbers, const Vector
     z.segment(3 * front->first, own) = work.head(own);
   }
   x->resize(size_);
-  for (std::size_t k = 0; k < order_.node_at.size(); ++k) {
-    x->segment<3>(3 * order_.node_at[k]) =
+  for (std::size_t k = 0; k < elimination_.node_at.size(); ++k) {
+    x->segment<3>(3 * elimination_.node_at[k]) =
         z.template segment<3>(3 * static_cast<Index>(k)).template cast<double>();
   }
 }
@@ -161,7 +161,7 @@ template <typename Scalar>
 std::vector<Scalar>& SparseCholesky::LayOutColumns(const std::vector<NodeColumn>& B,
                                                    EliminatedColumns* Y) const {
   const auto start = [&](int c) {
-    return order_.position[static_cast<std::size_t>(B[static_cast<std::size_t>(c)].node)];
+    return elimination_.position[static_cast<std::size_t>(B[static_cast<std::size_t>(c)].node)];
   };
   Y->order_.resize(B.size());
   std::iota(Y->order_.begin(), Y->order_.end(), 0);

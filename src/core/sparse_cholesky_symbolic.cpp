@@ -35,7 +35,7 @@ bool WorthMerging(int merged_width, double zero_share) {
 void SparseCholesky::Analyze(const NodeMatrix& A) {
   size_ = 3 * A.num_nodes;
   const NodeGraph graph = MakeNodeGraph(A);
-  order_ = FindEliminationOrder(graph);
+  elimination_ = FindEliminationOrder(graph);
   FindPieces();
   FindSupernodes(graph);
   MergeSmallSupernodes();
@@ -47,11 +47,12 @@ void SparseCholesky::Analyze(const NodeMatrix& A) {
 /// Each tree of the elimination forest is a piece.
 void SparseCholesky::FindPieces() {
   num_pieces_ = 0;
-  piece_of_.resize(order_.parent.size());
-  for (std::size_t k = order_.parent.size(); k-- > 0;) {
-    piece_of_[static_cast<std::size_t>(order_.node_at[k])] =
-        order_.parent[k] < 0 ? num_pieces_++
-                             : PieceOf(order_.node_at[static_cast<std::size_t>(order_.parent[k])]);
+  piece_of_.resize(elimination_.parent.size());
+  for (std::size_t k = elimination_.parent.size(); k-- > 0;) {
+    piece_of_[static_cast<std::size_t>(elimination_.node_at[k])] =
+        elimination_.parent[k] < 0
+            ? num_pieces_++
+            : PieceOf(elimination_.node_at[static_cast<std::size_t>(elimination_.parent[k])]);
   }
 }
 
@@ -61,8 +62,8 @@ void SparseCholesky::FindSupernodes(const NodeGraph& graph) {
   for (std::size_t k = 0; k < graph.size(); ++k) {
     std::vector<int>& rows = structure[k];
     rows.push_back(static_cast<int>(k));
-    for (const int neighbour : graph[static_cast<std::size_t>(order_.node_at[k])]) {
-      const int row = order_.position[static_cast<std::size_t>(neighbour)];
+    for (const int neighbour : graph[static_cast<std::size_t>(elimination_.node_at[k])]) {
+      const int row = elimination_.position[static_cast<std::size_t>(neighbour)];
       if (row > static_cast<int>(k)) rows.push_back(row);
     }
   }
@@ -70,8 +71,8 @@ void SparseCholesky::FindSupernodes(const NodeGraph& graph) {
     std::vector<int>& rows = structure[k];
     std::sort(rows.begin(), rows.end());
     rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
-    if (order_.parent[k] < 0) continue;
-    std::vector<int>& above = structure[static_cast<std::size_t>(order_.parent[k])];
+    if (elimination_.parent[k] < 0) continue;
+    std::vector<int>& above = structure[static_cast<std::size_t>(elimination_.parent[k])];
     above.insert(above.end(), rows.begin() + 1, rows.end());
     // Kept short, or a parent of many children grows quadratically.
     std::sort(above.begin(), above.end());
@@ -80,7 +81,7 @@ void SparseCholesky::FindSupernodes(const NodeGraph& graph) {
 
   supernodes_.clear();
   for (std::size_t k = 0; k < graph.size(); ++k) {
-    const bool continues = k > 0 && order_.parent[k - 1] == static_cast<int>(k) &&
+    const bool continues = k > 0 && elimination_.parent[k - 1] == static_cast<int>(k) &&
                            structure[k - 1].size() == structure[k].size() + 1;
     if (continues) {
       ++supernodes_.back().width;
@@ -128,7 +129,7 @@ void SparseCholesky::MergeSmallSupernodes() {
 }
 
 void SparseCholesky::LinkSupernodes() {
-  supernode_of_.resize(order_.node_at.size());
+  supernode_of_.resize(elimination_.node_at.size());
   for (std::size_t s = 0; s < supernodes_.size(); ++s) {
     const Supernode& supernode = supernodes_[s];
     std::fill_n(supernode_of_.begin() + supernode.first, supernode.width, static_cast<int>(s));
@@ -179,8 +180,8 @@ void SparseCholesky::MapEntries(const NodeMatrix& A) {
   std::vector<std::vector<Entry>> found(supernodes_.size());
   for (std::size_t block = 0; block < A.places.size(); ++block) {
     // In elimination order; the later one is the row of L.
-    int row = order_.position[static_cast<std::size_t>(A.places[block].row)];
-    int column = order_.position[static_cast<std::size_t>(A.places[block].column)];
+    int row = elimination_.position[static_cast<std::size_t>(A.places[block].row)];
+    int column = elimination_.position[static_cast<std::size_t>(A.places[block].column)];
     const bool mirrored = row < column;
     if (mirrored) std::swap(row, column);
     const int s = supernode_of_[static_cast<std::size_t>(column)];

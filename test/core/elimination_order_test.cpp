@@ -3,8 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <csignal>
+#include <cstddef>
 #include <numeric>
+#include <random>
 #include <set>
+#include <vector>
 
 #include "support/block_mesh.h"
 
@@ -16,9 +20,10 @@ NodeGraph BlockGraph(int cells, bool quadratic) {
   const TetMesh mesh = MakeBlock(cells, cells, 2 * cells, {0.02, 0.02, 0.04}, quadratic);
   std::vector<std::set<int>> neighbours(static_cast<std::size_t>(mesh.nodes.cols()));
   for (Eigen::Index e = 0; e < mesh.elements.cols(); ++e) {
-    for (const int a : mesh.elements.col(e)) {
-      for (const int b : mesh.elements.col(e)) {
-        if (a != b) neighbours[static_cast<std::size_t>(a)].insert(b);
+    for (Eigen::Index i = 0; i < mesh.elements.rows(); ++i) {
+      for (Eigen::Index j = 0; j < mesh.elements.rows(); ++j) {
+        if (i == j) continue;
+        neighbours[static_cast<std::size_t>(mesh.elements(i, e))].insert(mesh.elements(j, e));
       }
     }
   }
@@ -60,6 +65,11 @@ double PlayElimination(const NodeGraph& graph, const std::vector<int>& node_at) 
   return operations;
 }
 
+bool IsPermutation(std::vector<int> nodes, std::size_t size) {
+  std::sort(nodes.begin(), nodes.end());
+  return nodes == Numbers(size);
+}
+
 TEST(EliminationOrder, CountsWhatEliminatingTakes) {
   for (const bool quadratic : {false, true}) {
     const NodeGraph graph = BlockGraph(2, quadratic);
@@ -76,9 +86,7 @@ TEST(EliminationOrder, CountsWhatEliminatingTakes) {
 TEST(EliminationOrder, IsAPostorderOfItsTree) {
   const NodeGraph graph = BlockGraph(3, true);
   const EliminationOrder order = FindEliminationOrder(graph);
-  std::vector<int> sorted = order.node_at;
-  std::sort(sorted.begin(), sorted.end());
-  EXPECT_EQ(sorted, Numbers(graph.size()));
+  EXPECT_TRUE(IsPermutation(order.node_at, graph.size()));
   // What is below a node comes right before it.
   std::vector<int> first = Numbers(graph.size()), num_below(graph.size(), 0);
   for (std::size_t k = 0; k < graph.size(); ++k) {
@@ -92,18 +100,45 @@ TEST(EliminationOrder, IsAPostorderOfItsTree) {
   }
 }
 
-TEST(EliminationOrder, TakesFewOperations) {
+// As it is numbered, layer after layer, the block is a band.
+TEST(EliminationOrder, IsTheCheapestAndFarCheaperThanABand) {
   // Leaves first: two entries in each of their columns, and one for the centre.
   EXPECT_EQ(CountOperations(Star(6), FindEliminationOrder(Star(6))), 5 * 4 + 1);
-  // The block as it is numbered: a band. The worst of the orders tried takes a third of it.
-  const NodeGraph graph = BlockGraph(6, false);
-  const double band = CountOperations(graph, Postordered(graph, Numbers(graph.size())));
-  EXPECT_LT(CountOperations(graph, FindEliminationOrder(graph)), 0.3 * band);
+
+  const NodeGraph graph = BlockGraph(7, false);
+  const auto operations = [&](const std::vector<int>& nodes) {
+    EXPECT_TRUE(IsPermutation(nodes, graph.size()));
+    return CountOperations(graph, Postordered(graph, nodes));
+  };
+  const double band = operations(Numbers(graph.size()));
+  const double found = CountOperations(graph, FindEliminationOrder(graph));
+  std::vector<double> of_numberings;
+  std::vector<int> number = Numbers(graph.size());
+  std::mt19937 random(1);
+  for (int i = 0; i < 4; ++i) {
+    of_numberings.push_back(operations(MinimumDegreeOrder(graph, number)));
+    std::shuffle(number.begin(), number.end(), random);
+  }
+  const auto [least, most] = std::minmax_element(of_numberings.begin(), of_numberings.end());
+  EXPECT_LT(*most, 0.5 * band);
+  EXPECT_LT(*least, 0.99 * *most);  // numbers matter
+  EXPECT_LE(found, of_numberings.front());
+  EXPECT_LT(found, 1.02 * *least);
+  for (const int seed : {1, 2, 3}) {
+    const std::vector<int> dissected = NestedDissectionOrder(graph, seed);
+    if (dissected.empty()) continue;  // built without METIS
+    EXPECT_LT(operations(dissected), 0.5 * band);
+    EXPECT_LE(found, operations(dissected));
+  }
 }
 
 TEST(EliminationOrder, IsTheSameEveryTime) {
-  const NodeGraph graph = BlockGraph(4, true);
-  EXPECT_EQ(FindEliminationOrder(graph).node_at, FindEliminationOrder(graph).node_at);
+  const NodeGraph graph = BlockGraph(4, true), other = BlockGraph(2, true);
+  const EliminationOrder first = FindEliminationOrder(graph);
+  EXPECT_EQ(FindEliminationOrder(other).node_at.size(),
+            other.size());  // not that of the last graph
+  EXPECT_EQ(FindEliminationOrder(graph).node_at, first.node_at);
+  EXPECT_EQ(NestedDissectionOrder(graph, 1), NestedDissectionOrder(graph, 1));
 }
 
 TEST(EliminationOrder, HandlesGraphsWithoutEdges) {
@@ -111,6 +146,26 @@ TEST(EliminationOrder, HandlesGraphsWithoutEdges) {
   const EliminationOrder order = FindEliminationOrder(NodeGraph(3));
   EXPECT_EQ(order.parent, (std::vector<int>{-1, -1, -1}));
   EXPECT_EQ(CountOperations(NodeGraph(3), order), 3.0);
+}
+
+TEST(EliminationOrder, HandlesASingleElement) {
+  const NodeGraph graph{{1, 2, 3}, {0, 2, 3}, {0, 1, 3}, {0, 1, 2}};
+  EXPECT_EQ(CountOperations(graph, FindEliminationOrder(graph)), 16 + 9 + 4 + 1);
+}
+
+extern "C" void DoNothing(int, siginfo_t*, void*) {}
+
+// METIS has handlers of its own.
+TEST(EliminationOrder, LeavesTheHostsSignalsAlone) {
+  struct sigaction own {
+  }, found{}, before{};
+  own.sa_sigaction = DoNothing;
+  own.sa_flags = SA_SIGINFO;
+  ASSERT_EQ(sigaction(SIGTERM, &own, &before), 0);
+  NestedDissectionOrder(BlockGraph(3, false), 1);
+  ASSERT_EQ(sigaction(SIGTERM, &before, &found), 0);
+  EXPECT_EQ(found.sa_sigaction, DoNothing);
+  EXPECT_NE(found.sa_flags & SA_SIGINFO, 0);
 }
 
 }  // namespace

@@ -124,7 +124,7 @@ class SparseCholesky {
 
   Eigen::Index size_{0};           // scalars
   Eigen::Index largest_front_{0};  // rows, scalars
-  EliminationOrder order_;
+  EliminationOrder elimination_;
   std::vector<int> piece_of_;  // by node
   int num_pieces_{0};
   std::vector<Supernode> supernodes_;
