@@ -31,8 +31,8 @@ class HostSignals {
 
  private:
   sigset_t mask_{};
-  struct sigaction on_terminate_ {
-  }, on_abort_{};
+  struct sigaction on_terminate_ = {};
+  struct sigaction on_abort_ = {};
 };
 
 }  // namespace

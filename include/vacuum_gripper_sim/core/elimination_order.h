@@ -20,7 +20,7 @@ struct EliminationOrder {
    numbers decide, and what they decide costs up to a third more or less,
  - nested dissection from a few seeds, where the library was built with METIS.
 
- The same build gives a graph the same order in every run. Of any thread. */
+ The same build gives a graph the same order in every run. Any thread may call it. */
 EliminationOrder FindEliminationOrder(const NodeGraph& graph);
 
 /** Approximate minimum degree, as Eigen has it ([Amestoy 1996]).
@@ -31,8 +31,8 @@ EliminationOrder FindEliminationOrder(const NodeGraph& graph);
  algorithm", SIAM J. Matrix Anal. Appl. 17(4). */
 std::vector<int> MinimumDegreeOrder(const NodeGraph& graph, const std::vector<int>& number);
 
-/** Nested dissection by METIS ([Karypis 1998]), which uses the process's rand(): one thread at a
- time.
+/** Nested dissection by METIS ([Karypis 1998]). It uses the process's rand(): one thread at a time.
+ @param seed Of its random choices.
  @returns the nodes in order; nothing where the library was built without METIS, where METIS fails,
    and for graphs without edges.
 
