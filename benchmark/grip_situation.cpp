@@ -11,17 +11,18 @@ constexpr double kPressedHeight = kCupLength - 1e-3;      // m
 constexpr double kPressSpeed = 0.01, kPullSpeed = 0.005;  // m/s
 constexpr double kWithinOneStep = 1.0;                    // m/s
 
-SimulatorParameters WithMethod(LinearSolverMethod method) {
+SimulatorParameters With(LinearSolverMethod method, int threads) {
   SimulatorParameters parameters = A20(kTimeStep);
   parameters.linear_solver.method = method;
+  parameters.linear_solver.threads = threads;
   return parameters;
 }
 
 }  // namespace
 
 GripSituation::GripSituation(const std::string& bell, Situation situation,
-                             LinearSolverMethod method)
-    : situation_(situation), cycle_(LoadBell(bell), WithMethod(method)) {
+                             LinearSolverMethod method, int threads)
+    : situation_(situation), cycle_(LoadBell(bell), With(method, threads)) {
   constexpr double kSettling = 0.2;  // s
   switch (situation) {
     case Situation::kAir:

@@ -27,7 +27,8 @@ inline constexpr struct {
 class GripSituation {
  public:
   /// @param bell Name of one of meshes/bell_*.msh.
-  GripSituation(const std::string& bell, Situation situation, LinearSolverMethod method);
+  GripSituation(const std::string& bell, Situation situation, LinearSolverMethod method,
+                int threads = 1);
 
   /// The situation's next step.
   void Step();

@@ -33,12 +33,17 @@ constexpr Bell kBells[] = {{"linear_700", 1000, 20},
 
 constexpr int kStepsOfCycle = 200;  // about: from one press to the next
 
-constexpr struct {
+struct Solver {
   LinearSolverMethod method;
+  int threads;
   const char* name;
-} kMethods[] = {{LinearSolverMethod::kDirect, "direct"},
-                {LinearSolverMethod::kConjugateGradient, "conjugate_gradient"},
-                {LinearSolverMethod::kAsynchronous, "asynchronous"}};
+};
+constexpr Solver kSolvers[] = {
+    {LinearSolverMethod::kDirect, 1, "direct"},
+    {LinearSolverMethod::kDirect, 2, "direct_two_threads"},
+    {LinearSolverMethod::kConjugateGradient, 1, "conjugate_gradient"},
+    {LinearSolverMethod::kConjugateGradient, 2, "conjugate_gradient_two_threads"},
+    {LinearSolverMethod::kAsynchronous, 1, "asynchronous"}};
 
 /// Sums of the phases of StepTimings.
 class Phases {
@@ -88,8 +93,8 @@ StepTime TimeStep(GripSituation* grip) {
 }
 
 void TimeSteps(benchmark::State& state, const char* bell, Situation situation,
-               LinearSolverMethod method) {
-  GripSituation grip(bell, situation, method);
+               const Solver& solver) {
+  GripSituation grip(bell, situation, solver.method, solver.threads);
   const OnOneCore on_one_core;
   StepStatistics statistics;
   Phases phases;
@@ -117,9 +122,9 @@ void TimeSteps(benchmark::State& state, const char* bell, Situation situation,
 
 /// Times in the air beside sealed ones, step by step, so that the machine's drift is no part of
 /// their ratio. Both cups' data pass through the same caches: either is slower than alone.
-void CompareAir(benchmark::State& state, const char* bell, LinearSolverMethod method) {
-  GripSituation air(bell, Situation::kAir, method);
-  GripSituation sealed(bell, Situation::kSealed, method);
+void CompareAir(benchmark::State& state, const char* bell, const Solver& solver) {
+  GripSituation air(bell, Situation::kAir, solver.method, solver.threads);
+  GripSituation sealed(bell, Situation::kSealed, solver.method, solver.threads);
   const OnOneCore on_one_core;
   StepStatistics air_statistics;
   std::vector<double> ratios;
@@ -159,22 +164,30 @@ std::vector<RigidSurface> PlacedSurfaces(const Simulator& simulator) {
   return world.surfaces();
 }
 
-/// The paper's step, over and over from the same state.
-void TimePaper(benchmark::State& state, const char* bell, Situation situation,
+/// The paper's step, from states of a situation on its way. Before each of them so many steps of
+/// ours are timed, by both methods of one thread, that the machine's drift is no part of the ratio.
+void TimePaper(benchmark::State& state, const Bell& bell, Situation situation,
                PaperPipeline::Points points) {
-  GripSituation grip(bell, situation, LinearSolverMethod::kDirect);
-  const Simulator& simulator = grip.cycle().simulator();
-  const StepProblem problem = Record(&grip);
+  GripSituation direct(bell.name, situation, LinearSolverMethod::kDirect);
+  GripSituation iterating(bell.name, situation, LinearSolverMethod::kConjugateGradient);
+  const Simulator& simulator = direct.cycle().simulator();
   PaperPipeline pipeline(simulator.mesh(), simulator.parameters(), PlacedSurfaces(simulator),
                          points);
   const OnOneCore on_one_core;
   StepStatistics statistics;
   PaperTimings sum;
-  Eigen::Matrix3Xd x_W;
+  double direct_time = 0.0, iterating_time = 0.0, constraints = 0.0, difference = 0.0;
+  const int num_between = bell.num_steps / bell.num_paper_steps;
   for (auto _ : state) {
+    for (int i = 0; i < num_between; ++i) {
+      direct_time += TimeStep(&direct).cpu;
+      iterating_time += TimeStep(&iterating).cpu;
+    }
+    const StepProblem problem = Record(&direct);
     double wall = 0.0;
     const double begin = ThreadTime();
     const double factorization_before = sum.factorization;
+    Eigen::Matrix3Xd x_W;
     {
       const Stopwatch stopwatch(&wall);
       x_W = pipeline.Step(problem, &sum);
@@ -182,6 +195,8 @@ void TimePaper(benchmark::State& state, const char* bell, Situation situation,
     // Without the factorisation: another thread's work in the paper.
     const double factorization = sum.factorization - factorization_before;
     statistics.Add(ThreadTime() - begin - factorization, wall);
+    constraints += pipeline.num_constraints();
+    difference = std::max(difference, (x_W - problem.x_end_W).colwise().norm().maxCoeff());
   }
   statistics.Report({{"assembly", sum.assembly},
                      {"factorization", sum.factorization},
@@ -192,9 +207,14 @@ void TimePaper(benchmark::State& state, const char* bell, Situation situation,
                      {"correction", sum.correction}},
                     &state);
   state.counters["elements"] = simulator.mesh().num_elements();
-  state.counters["candidates"] = pipeline.num_constraints();
-  // How far its nodes end from the Simulator's. [m]
-  state.counters["difference"] = (x_W - problem.x_end_W).colwise().norm().maxCoeff();
+  state.counters["candidates"] =
+      benchmark::Counter(constraints, benchmark::Counter::kAvgIterations);
+  // How far its nodes end from the Simulator's, at most. [m]
+  state.counters["difference"] = difference;
+  // Mean step over ours.
+  const double paper_time = statistics.total_cpu() * num_between;
+  state.counters["over_direct"] = paper_time / direct_time;
+  state.counters["over_conjugate_gradient"] = paper_time / iterating_time;
 }
 
 void RegisterAll() {
@@ -205,24 +225,23 @@ void RegisterAll() {
   };
   for (const Bell& bell : kBells) {
     const char* const name = bell.name;
-    for (const auto& solver : kMethods) {
-      const LinearSolverMethod method = solver.method;
+    for (const Solver& solver : kSolvers) {
+      if (solver.threads > 1) continue;  // of which the clock of one tells nothing
       add(std::string(name) + "/air_beside_sealed/" + solver.name, bell.num_steps / 2,
-          [=](benchmark::State& state) { CompareAir(state, name, method); });
+          [=](benchmark::State& state) { CompareAir(state, name, solver); });
     }
     for (const auto& named : kSituations) {
       const Situation situation = named.situation;
       const bool cycle = situation == Situation::kCycle;
       const std::string title = std::string(name) + "/" + named.name + "/";
-      for (const auto& solver : kMethods) {
-        const LinearSolverMethod method = solver.method;
+      for (const Solver& solver : kSolvers) {
         add(title + solver.name, cycle ? std::max(bell.num_steps, kStepsOfCycle) : bell.num_steps,
-            [=](benchmark::State& state) { TimeSteps(state, name, situation, method); });
+            [=](benchmark::State& state) { TimeSteps(state, name, situation, solver); });
       }
       if (cycle) continue;
       const auto add_paper = [&](const char* method, PaperPipeline::Points points) {
         add(title + method, bell.num_paper_steps,
-            [=](benchmark::State& state) { TimePaper(state, name, situation, points); });
+            [=](benchmark::State& state) { TimePaper(state, bell, situation, points); });
       };
       add_paper("paper", PaperPipeline::Points::kNodesAndEdges);
       // Quadratic elements have a node on every edge: both are the same.

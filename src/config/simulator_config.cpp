@@ -16,6 +16,7 @@ LinearSolverParameters ReadLinearSolver(ParameterReader reader) {
   p.tolerance = reader.GetDouble("tolerance", p.tolerance);
   p.max_iterations = reader.GetInt("max_iterations", p.max_iterations);
   p.refactor_interval = reader.GetInt("refactor_interval", p.refactor_interval);
+  p.threads = reader.GetInt("threads", p.threads);
   reader.CheckNoUnknownKeys();
   return p;
 }

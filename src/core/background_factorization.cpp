@@ -6,11 +6,10 @@ namespace vacuum_gripper_sim {
 
 BackgroundFactorization::BackgroundFactorization(const SparseCholesky& analyzed,
                                                  const StepMatrix& matrix, Precision precision)
-    : matrix_(&matrix),
-      precision_(precision),
-      A_(matrix.pattern()),
-      factorization_(analyzed),
-      worker_([this] { Run(); }) {}
+    : matrix_(&matrix), precision_(precision), A_(matrix.pattern()), factorization_(analyzed) {
+  factorization_.WorkAlone();
+  worker_ = std::thread([this] { Run(); });
+}
 
 BackgroundFactorization::~BackgroundFactorization() {
   {

@@ -170,16 +170,17 @@ bool FactorizeNarrowPanel(Index rows, Index columns, Scalar* F, Index stride) {
 
 /// SolveOnTheRight() of a few columns.
 template <typename Scalar>
-void SolveNarrow(Index rows, Index columns, const Scalar* L, Index stride_L, Scalar* X) {
+void SolveNarrow(Index rows, Index columns, const Scalar* L, Index stride_L, Scalar* X,
+                 Index stride_X) {
   ForColumnTiles(columns, [&](Index column, auto num_columns) {
     constexpr int kColumns = num_columns;
     const Scalar* const L_own = L + column * (stride_L + 1);
     const Column<Scalar, kColumns> inverse_diagonal = InverseDiagonal<kColumns>(L_own, stride_L);
     ForRowTiles<kTileRows<Scalar>>(0, rows, [&](Index row, auto num_rows) {
-      Scalar* const target = X + row + column * rows;
-      Tile<num_rows, kColumns, Write::kSubtract>(column, X + row, rows, L + column, stride_L,
-                                                 target, rows);
-      SolveTile<num_rows, kColumns>(L_own, stride_L, inverse_diagonal, target, rows);
+      Scalar* const target = X + row + column * stride_X;
+      Tile<num_rows, kColumns, Write::kSubtract>(column, X + row, stride_X, L + column, stride_L,
+                                                 target, stride_X);
+      SolveTile<num_rows, kColumns>(L_own, stride_L, inverse_diagonal, target, stride_X);
     });
   });
 }
@@ -244,13 +245,14 @@ bool FactorizePanel(Index rows, Index columns, Scalar* F) {
 }
 
 template <typename Scalar>
-void SolveOnTheRight(Index rows, Index columns, const Scalar* L, Index stride_L, Scalar* X) {
+void SolveOnTheRight(Index rows, Index columns, const Scalar* L, Index stride_L, Scalar* X,
+                     Index stride_X) {
   for (Index k = 0; k < columns; k += kDepth<Scalar>) {
     const Index width = std::min(columns - k, kDepth<Scalar>);
-    SolveNarrow(rows, width, L + k * (stride_L + 1), stride_L, X + k * rows);
+    SolveNarrow(rows, width, L + k * (stride_L + 1), stride_L, X + k * stride_X, stride_X);
     const Index next = k + width;
-    Product<Write::kSubtract>(false, rows, columns - next, width, X + k * rows, rows,
-                              L + next + k * stride_L, stride_L, X + next * rows, rows);
+    Product<Write::kSubtract>(false, rows, columns - next, width, X + k * stride_X, stride_X,
+                              L + next + k * stride_L, stride_L, X + next * stride_X, stride_X);
   }
 }
 
@@ -280,14 +282,14 @@ template void NegativeSquare(Index, Index, const double*, Index, double*);
 template void NegativeProduct(Index, Index, Index, const double*, Index, const double*, Index,
                               double*);
 template bool FactorizePanel(Index, Index, double*);
-template void SolveOnTheRight(Index, Index, const double*, Index, double*);
+template void SolveOnTheRight(Index, Index, const double*, Index, double*, Index);
 template void EliminateVector(Index, Index, const double*, double*);
 template void BackSubstituteVector(Index, Index, const double*, double*);
 template void NegativeSquare(Index, Index, const float*, Index, float*);
 template void NegativeProduct(Index, Index, Index, const float*, Index, const float*, Index,
                               float*);
 template bool FactorizePanel(Index, Index, float*);
-template void SolveOnTheRight(Index, Index, const float*, Index, float*);
+template void SolveOnTheRight(Index, Index, const float*, Index, float*, Index);
 template void EliminateVector(Index, Index, const float*, float*);
 template void BackSubstituteVector(Index, Index, const float*, float*);
 

@@ -28,11 +28,11 @@ void NegativeProduct(Eigen::Index rows, Eigen::Index columns, Eigen::Index depth
 template <typename Scalar>
 bool FactorizePanel(Eigen::Index rows, Eigen::Index columns, Scalar* F);
 
-/// X = X L^-T. @param[in,out] X #rows by #columns, no padding; #columns a multiple of 3.
+/// X = X L^-T. @param[in,out] X #rows by #columns; #columns a multiple of 3.
 /// @param L Lower triangle, #columns square.
 template <typename Scalar>
 void SolveOnTheRight(Eigen::Index rows, Eigen::Index columns, const Scalar* L,
-                     Eigen::Index stride_L, Scalar* X);
+                     Eigen::Index stride_L, Scalar* X, Eigen::Index stride_X);
 
 /// x_1 = L_11^-1 x_1, then x_2 -= L_21 x_1, of a panel F = (L_11; L_21).
 /// @param F #rows by #columns, no padding; #columns a multiple of 3. @param[in,out] x #rows.

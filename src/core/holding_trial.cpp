@@ -44,6 +44,12 @@ double RadiusOfRims(const CavitySurface& cavity, const Snapshot& moment, const V
   return radius;
 }
 
+/// A trial takes its time, and no thread from the simulation beside which it is made.
+SimulatorParameters OnOneThread(SimulatorParameters parameters) {
+  parameters.linear_solver.threads = 1;
+  return parameters;
+}
+
 }  // namespace
 
 /// One of the three ways to fail: a screw of the mount, and the load that counts. Mount axes.
@@ -70,7 +76,7 @@ struct HoldingTrial::Motion {
 };
 
 HoldingTrial::HoldingTrial(const TetMesh& mesh, const SimulatorParameters& parameters)
-    : simulator_(mesh, parameters) {}
+    : simulator_(mesh, OnOneThread(parameters)) {}
 
 HoldingReserve HoldingTrial::Measure(const Snapshot& moment) {
   HoldingReserve margin;

@@ -95,8 +95,8 @@ void ImplicitEuler::AddStiffness(const Eigen::Matrix3Xd& dv, const std::vector<s
       packs_, body_->law());
 }
 
-const NodeMatrix& ImplicitEuler::A_ff() {
-  if (!assembled_) matrix_.Assemble(linearization_, &A_ff_);
+const NodeMatrix& ImplicitEuler::A_ff(Crew* crew) {
+  if (!assembled_) matrix_.Assemble(linearization_, &A_ff_, crew);
   assembled_ = true;
   return A_ff_;
 }

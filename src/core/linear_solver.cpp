@@ -19,8 +19,8 @@ constexpr int kLongestPause = 7;
 }  // namespace
 
 LinearSolver::LinearSolver(const LinearSolverParameters& parameters, ImplicitEuler* system)
-    : parameters_(parameters), system_(system) {
-  factorization_.Analyze(system->matrix().pattern());
+    : parameters_(parameters), system_(system), crew_(parameters.threads) {
+  factorization_.Analyze(system->matrix().pattern(), &crew_);
   if (parameters.method == LinearSolverMethod::kAsynchronous) {
     background_ = std::make_unique<BackgroundFactorization>(factorization_, system->matrix(),
                                                             parameters.precision);
@@ -78,7 +78,7 @@ bool LinearSolver::ExchangeWithBackground(bool worth_taking) {
     positive_definite = finished != nullptr;
     // A step that could not wait may have made a newer one.
     if (positive_definite && worth_taking && background_step_ > factorized_step_) {
-      std::swap(factorization_, *finished);
+      factorization_.SwapFactor(finished);
       factorized_step_ = background_step_;
       iterations_since_ = 0;
       ++generation_;
@@ -117,7 +117,7 @@ bool LinearSolver::Renew() {
 }
 
 bool LinearSolver::FactorizeWith(Precision precision) {
-  usable_ = factorization_.Factorize(system_->A_ff(), precision);
+  usable_ = factorization_.Factorize(system_->A_ff(&crew_), precision);
   factorized_step_ = step_;
   iterations_since_ = 0;
   iterations_before_ = iterations_;

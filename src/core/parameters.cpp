@@ -48,6 +48,8 @@ void Validate(const SimulatorParameters& p) {
           "linear_solver.tolerance", p.linear_solver.tolerance, "in (0, 1) [-]");
   RequireAtLeastOne("linear_solver.max_iterations", p.linear_solver.max_iterations);
   RequireAtLeastOne("linear_solver.refactor_interval", p.linear_solver.refactor_interval);
+  Require(p.linear_solver.threads >= 1 && p.linear_solver.threads <= 16, "linear_solver.threads",
+          p.linear_solver.threads, "from 1 to 16");
 
   RequirePositive("contact.tolerance", p.contact.tolerance, "[m]");
   Require(std::isfinite(p.contact.acceptable_residual) &&

@@ -2,6 +2,7 @@
 #include "vacuum_gripper_sim/core/sparse_cholesky.h"
 
 #include <algorithm>
+#include <atomic>
 #include <numeric>
 
 #include "dense_kernels.h"
@@ -11,6 +12,9 @@ namespace {
 
 using Eigen::Index;
 using Eigen::VectorXd;
+
+/// Few enough for several threads to have some, and for a front's part of them to stay in cache.
+constexpr Index kColumnsAtATime = 64;
 
 /// Extend-add: columns [begin, end) of a child's update, #rows square, go into its parent's front.
 /// @param in_parent Place of every node of the update in the front.
@@ -44,13 +48,20 @@ bool SparseCholesky::Factorize(const NodeMatrix& A, Precision precision) {
              !std::holds_alternative<Numbers<double>>(numbers_)) {
     numbers_ = Numbers<double>();
   }
+  std::atomic<bool> positive_definite{true};
   const auto factorize = [&](auto& numbers) {
     numbers.factor.resize(factor_size_);
     for (std::size_t i = 0; i < 2; ++i) numbers.updates[i].resize(update_sizes_[i]);
-    return std::all_of(supernodes_.begin(), supernodes_.end(),
-                       [&](const Supernode& front) { return EliminateFront(front, A, &numbers); });
+    const auto eliminate = [&](int branch, int /*member*/) {
+      const auto [begin, end] = branches_.branches[static_cast<std::size_t>(branch)];
+      for (std::size_t s = begin; s < end && positive_definite; ++s) {
+        if (!EliminateFront(supernodes_[s], A, &numbers)) positive_definite = false;
+      }
+    };
+    Share(crew_, branches_.forest, eliminate);
   };
-  return std::visit(factorize, numbers_);
+  std::visit(factorize, numbers_);
+  return positive_definite;
 }
 
 VectorXd SparseCholesky::Solve(const VectorXd& b) const {
@@ -87,7 +98,7 @@ bool SparseCholesky::EliminateFront(const Supernode& front, const NodeMatrix& A,
     Scalar* column = panel + entries_[e].offset;
     for (int j = 0; j < 3; ++j, column += rows) {
       for (int i = 0; i < 3; ++i) {
-        column[i] = static_cast<Scalar>(entries_[e].mirrored ? block(j, i) : block(i, j));
+        column[i] += static_cast<Scalar>(entries_[e].mirrored ? block(j, i) : block(i, j));
       }
     }
   }
@@ -209,26 +220,48 @@ void SparseCholesky::EliminateColumns(const Numbers<Scalar>& numbers,
                                       const std::vector<NodeColumn>& B,
                                       EliminatedColumns* Y) const {
   std::vector<Scalar>& values = LayOutColumns<Scalar>(B, Y);
+  const Index num_columns = Y->num_columns();
+  const Index num_parts = (num_columns + kColumnsAtATime - 1) / kColumnsAtATime;
+  numbers.updates_of_columns.resize(static_cast<std::size_t>(crew_ != nullptr ? crew_->size() : 1));
+  for (MatrixMemory<Scalar>& updates : numbers.updates_of_columns) {
+    updates.Shape(kColumnsAtATime, largest_front_);  // whichever thread will need it
+  }
+  const auto eliminate = [&](int part, int member) {
+    const Index begin = part * kColumnsAtATime;
+    EliminateColumns(numbers, begin, std::min(begin + kColumnsAtATime, num_columns),
+                     &numbers.updates_of_columns[static_cast<std::size_t>(member)], *Y, &values);
+  };
+  Share(crew_, static_cast<int>(num_parts), eliminate);
+}
+
+/// Columns [begin, end), of which every front works on those that reach it.
+template <typename Scalar>
+void SparseCholesky::EliminateColumns(const Numbers<Scalar>& numbers, Index begin, Index end,
+                                      MatrixMemory<Scalar>* updates, const EliminatedColumns& Y,
+                                      std::vector<Scalar>* values) const {
   for (std::size_t s = 0; s < supernodes_.size(); ++s) {
     if (block_of_[s] < 0) continue;
     const Supernode& front = supernodes_[s];
-    const EliminatedColumns::Block& block = Y->blocks_[static_cast<std::size_t>(block_of_[s])];
+    const EliminatedColumns::Block& block = Y.blocks_[static_cast<std::size_t>(block_of_[s])];
+    const Index first = std::max(begin, block.column);
+    const Index num_columns = std::min(end, block.column + block.num_columns) - first;
+    if (num_columns <= 0) continue;
     const Scalar* const panel = numbers.factor.data() + front.offset;
     const Index rows = 3 * front.num_rows();
     const Index own = 3 * front.width;
-    Scalar* const Y_own = values.data() + block.offset;
-    SolveOnTheRight(block.num_columns, own, panel, rows, Y_own);
+    Scalar* const Y_own = values->data() + block.offset + (first - block.column);
+    SolveOnTheRight(num_columns, own, panel, rows, Y_own, block.num_columns);
     if (rows == own) continue;
-    auto update = numbers.front_rows.Shape(block.num_columns, rows - own);
-    NegativeProduct(block.num_columns, rows - own, own, Y_own, block.num_columns, panel + own, rows,
+    auto update = updates->Shape(num_columns, rows - own);
+    NegativeProduct(num_columns, rows - own, own, Y_own, block.num_columns, panel + own, rows,
                     update.data());
     for (int r = 0; r < front.num_below(); ++r) {
       const int position = front.rows[static_cast<std::size_t>(front.width + r)];
       const int above = supernode_of_[static_cast<std::size_t>(position)];
       const auto& target =
-          Y->blocks_[static_cast<std::size_t>(block_of_[static_cast<std::size_t>(above)])];
-      Y->Values(&values, target)
-          .block(block.column - target.column, 3 * position - target.row, block.num_columns, 3) +=
+          Y.blocks_[static_cast<std::size_t>(block_of_[static_cast<std::size_t>(above)])];
+      EliminatedColumns::Values(values, target)
+          .block(first - target.column, 3 * position - target.row, num_columns, 3) +=
           update.middleCols(3 * r, 3);
     }
   }

@@ -32,7 +32,8 @@ bool WorthMerging(int merged_width, double zero_share) {
 
 }  // namespace
 
-void SparseCholesky::Analyze(const NodeMatrix& A) {
+void SparseCholesky::Analyze(const NodeMatrix& A, Crew* crew) {
+  crew_ = crew;
   size_ = 3 * A.num_nodes;
   const NodeGraph graph = MakeNodeGraph(A);
   elimination_ = FindEliminationOrder(graph);
@@ -40,6 +41,7 @@ void SparseCholesky::Analyze(const NodeMatrix& A) {
   FindSupernodes(graph);
   MergeSmallSupernodes();
   LinkSupernodes();
+  CutIntoBranches();
   PlaceUpdates();
   MapEntries(A);
 }
@@ -157,21 +159,41 @@ void SparseCholesky::LinkSupernodes() {
   factor_size_ = offset;
 }
 
+void SparseCholesky::CutIntoBranches() {
+  constexpr double kCostOfANumber = 16.0;  // to clear it and to add to it, in operations
+  std::vector<int> parent;
+  std::vector<double> cost;
+  for (const Supernode& front : supernodes_) {
+    const double rows = 3.0 * front.num_rows();
+    const double own = 3.0 * front.width;
+    parent.push_back(front.parent);
+    // Columns of rows, rows - 1, ... numbers, each of which changes what is to its right and below.
+    cost.push_back(own * (rows * rows - rows * own + own * own / 3.0) +
+                   kCostOfANumber * rows * rows);
+  }
+  branches_ =
+      vacuum_gripper_sim::CutIntoBranches(parent, cost, crew_ != nullptr ? crew_->size() : 1);
+}
+
 void SparseCholesky::PlaceUpdates() {
   for (auto front = supernodes_.rbegin(); front != supernodes_.rend(); ++front) {
     if (front->parent >= 0) {
       front->depth = supernodes_[static_cast<std::size_t>(front->parent)].depth + 1;
     }
   }
-  std::array<std::size_t, 2> top{};
   update_sizes_ = {};
-  for (Supernode& front : supernodes_) {
-    const auto own = static_cast<std::size_t>(front.depth % 2);
-    front.update_offset = top[own];
-    top[own] += static_cast<std::size_t>(9 * front.num_below() * front.num_below());
-    update_sizes_[own] = std::max(update_sizes_[own], top[own]);
-    if (!front.children.empty()) {
-      top[1 - own] = supernodes_[static_cast<std::size_t>(front.children.front())].update_offset;
+  for (const auto [begin, end] : branches_.branches) {
+    // Each branch has stacks of its own, above those of the ones before.
+    std::array<std::size_t, 2> top = update_sizes_;
+    for (std::size_t s = begin; s < end; ++s) {
+      Supernode& front = supernodes_[s];
+      const auto own = static_cast<std::size_t>(front.depth % 2);
+      front.update_offset = top[own];
+      top[own] += static_cast<std::size_t>(9 * front.num_below() * front.num_below());
+      update_sizes_[own] = std::max(update_sizes_[own], top[own]);
+      if (front.children.empty()) continue;
+      const auto first = static_cast<std::size_t>(front.children.front());
+      if (first >= begin) top[1 - own] = supernodes_[first].update_offset;
     }
   }
 }

@@ -5,73 +5,139 @@
 #include <utility>
 
 namespace vacuum_gripper_sim {
+namespace {
 
-StepMatrix::StepMatrix(const ElasticBody& body, const std::vector<int>& free_row) : body_(&body) {
-  std::map<std::pair<int, int>, int> place_of;  // by row and column, row >= column
-  const auto find_place = [&](int row, int column) {
-    const auto [place, is_new] =
-        place_of.emplace(std::pair(row, column), static_cast<int>(pattern_.places.size()));
-    if (is_new) pattern_.places.push_back({row, column});
-    return place->second;
-  };
-  for (int node = 0; node < body.num_nodes(); ++node) {
-    const int row = free_row[static_cast<std::size_t>(node)];
-    if (row < 0) continue;
-    mass_nodes_.push_back(node);
-    diagonal_.push_back(find_place(row / 3, row / 3));
-    pattern_.num_nodes = std::max(pattern_.num_nodes, row / 3 + 1);
+/// Work for that many threads; a linear cup of 700 elements gets a quarter more places by it.
+constexpr std::size_t kParts = 4;
+
+/// Elements in order of their distance from the last one of such an order from the first element,
+/// in steps from neighbour to neighbour: ranges of it have few nodes in common.
+template <typename Element>
+std::vector<std::size_t> OrderByNeighbours(const std::vector<Element>& elements, int num_nodes) {
+  std::vector<std::vector<std::size_t>> elements_of(static_cast<std::size_t>(num_nodes));
+  for (std::size_t e = 0; e < elements.size(); ++e) {
+    for (const int node : elements[e].nodes) {
+      elements_of[static_cast<std::size_t>(node)].push_back(e);
+    }
   }
-  const auto add_shares = [&](const auto& nodes) {
-    for (std::size_t a = 0; a < nodes.size(); ++a) {
-      for (std::size_t b = 0; b < nodes.size(); ++b) {
-        const int row = free_row[static_cast<std::size_t>(nodes[a])];
-        const int column = free_row[static_cast<std::size_t>(nodes[b])];
-        if (column < 0 || row < column) continue;
-        shares_.push_back({static_cast<std::uint8_t>(a), static_cast<std::uint8_t>(b),
-                           find_place(row / 3, column / 3)});
+  std::vector<std::size_t> order;
+  const auto walk_from = [&](std::size_t start) {
+    std::vector<bool> seen(elements.size(), false);
+    order.clear();
+    const auto visit = [&](std::size_t e) {
+      if (!seen[e]) order.push_back(e);
+      seen[e] = true;
+    };
+    visit(start);
+    std::size_t next_start = 0;  // of a piece that is not connected with those before
+    for (std::size_t i = 0; i < elements.size(); ++i) {
+      while (i == order.size()) visit(next_start++);
+      for (const int node : elements[order[i]].nodes) {
+        for (const std::size_t e : elements_of[static_cast<std::size_t>(node)]) visit(e);
       }
     }
-    shares_end_.push_back(shares_.size());
   };
-  std::visit(
-      [&](const auto& elements) {
-        for (const auto& element : elements) add_shares(element.nodes);
-      },
-      body.elements());
-  pattern_.values.assign(pattern_.places.size(), NodeBlock::Zero());
+  if (elements.empty()) return order;
+  walk_from(0);
+  walk_from(order.back());
+  return order;
 }
 
 template <typename Element, typename Law>
-void StepMatrix::AddElements(const std::vector<Element>& elements, const Law& law,
-                             const Linearization& linearization, NodeMatrix* A) const {
+void FindTangents(std::size_t e, const Law& law, const Linearization& linearization,
+                  PointTangents<Element, Law>* tangents) {
   constexpr std::size_t kLanes = Pack::SizeAtCompileTime;
   const auto tangent_size = static_cast<std::size_t>(TangentSize(law));
-  PointTangents<Element, Law> tangents;
-  std::size_t next = 0;
-  for (std::size_t e = 0; e < elements.size(); ++e) {
-    for (std::size_t q = 0; q < Element::kPoints; ++q) {
-      const std::size_t point = e * Element::kPoints + q;
-      tangents[q] = TangentAt(law, linearization.tangents.data() + point / kLanes * tangent_size,
-                              static_cast<int>(point % kLanes));
-    }
-    const ElementStiffness<Element, Law> K(elements[e], law, tangents,
-                                           linearization.stiffness_factor);
-    for (; next < shares_end_[e]; ++next) {
-      const Share& share = shares_[next];
-      A->values[static_cast<std::size_t>(share.place)] += K(share.a, share.b);
-    }
+  for (std::size_t q = 0; q < Element::kPoints; ++q) {
+    const std::size_t point = e * Element::kPoints + q;
+    (*tangents)[q] = TangentAt(law, linearization.tangents.data() + point / kLanes * tangent_size,
+                               static_cast<int>(point % kLanes));
   }
 }
 
-void StepMatrix::Assemble(const Linearization& linearization, NodeMatrix* A) const {
-  std::fill(A->values.begin(), A->values.end(), NodeBlock::Zero());
-  std::visit(
-      [&](const auto& elements, const auto& law) { AddElements(elements, law, linearization, A); },
-      body_->elements(), body_->law());
-  for (std::size_t k = 0; k < mass_nodes_.size(); ++k) {
-    A->values[static_cast<std::size_t>(diagonal_[k])].topRows<3>().diagonal().array() +=
-        linearization.mass_factor * body_->masses()(mass_nodes_[k]);
+}  // namespace
+
+StepMatrix::StepMatrix(const ElasticBody& body, const std::vector<int>& free_row) : body_(&body) {
+  for (const int row : free_row) {
+    if (row >= 0) pattern_.num_nodes = std::max(pattern_.num_nodes, row / 3 + 1);
   }
+  std::visit([&](const auto& elements) { FindParts(elements, free_row); }, body.elements());
+  pattern_.values.assign(pattern_.places.size(), NodeBlock::Zero());
+}
+
+template <typename Element>
+void StepMatrix::FindParts(const std::vector<Element>& elements, const std::vector<int>& free_row) {
+  elements_ = OrderByNeighbours(elements, body_->num_nodes());
+  std::vector<bool> has_mass(free_row.size(), false);
+  for (std::size_t p = 0; p < kParts; ++p) {
+    Part part;
+    part.elements_begin = p * elements.size() / kParts;
+    part.elements_end = (p + 1) * elements.size() / kParts;
+    part.blocks_begin = blocks_.size();
+    part.masses_begin = masses_.size();
+    part.places_begin = static_cast<std::ptrdiff_t>(pattern_.places.size());
+    std::map<std::pair<int, int>, int> place_of;  // by row and column, row >= column
+    const auto find_place = [&](int row, int column) {
+      const auto [place, is_new] =
+          place_of.emplace(std::pair(row, column), static_cast<int>(pattern_.places.size()));
+      if (is_new) pattern_.places.push_back({row, column});
+      return place->second;
+    };
+    for (std::size_t i = part.elements_begin; i < part.elements_end; ++i) {
+      const auto& nodes = elements[elements_[i]].nodes;
+      for (std::size_t a = 0; a < nodes.size(); ++a) {
+        const auto node = static_cast<std::size_t>(nodes[a]);
+        const int row = free_row[node];
+        if (row < 0) continue;
+        if (!has_mass[node]) masses_.push_back({nodes[a], find_place(row / 3, row / 3)});
+        has_mass[node] = true;
+        for (std::size_t b = 0; b < nodes.size(); ++b) {
+          const int column = free_row[static_cast<std::size_t>(nodes[b])];
+          if (column < 0 || row < column) continue;
+          blocks_.push_back({static_cast<std::uint8_t>(a), static_cast<std::uint8_t>(b),
+                             find_place(row / 3, column / 3)});
+        }
+      }
+      blocks_end_.push_back(blocks_.size());
+    }
+    part.masses_end = masses_.size();
+    part.places_end = static_cast<std::ptrdiff_t>(pattern_.places.size());
+    parts_.push_back(part);
+  }
+}
+
+void StepMatrix::AssemblePart(const Part& part, const Linearization& linearization,
+                              NodeMatrix* A) const {
+  std::fill(A->values.begin() + part.places_begin, A->values.begin() + part.places_end,
+            NodeBlock::Zero());
+  std::size_t next = part.blocks_begin;
+  const auto add_elements = [&](const auto& elements, const auto& law) {
+    using Element = typename std::decay_t<decltype(elements)>::value_type;
+    using Law = std::decay_t<decltype(law)>;
+    PointTangents<Element, Law> tangents;
+    for (std::size_t i = part.elements_begin; i < part.elements_end; ++i) {
+      const std::size_t e = elements_[i];
+      FindTangents<Element>(e, law, linearization, &tangents);
+      const ElementStiffness<Element, Law> K(elements[e], law, tangents,
+                                             linearization.stiffness_factor);
+      for (; next < blocks_end_[i]; ++next) {
+        const ElementBlock& block = blocks_[next];
+        A->values[static_cast<std::size_t>(block.place)] += K(block.a, block.b);
+      }
+    }
+  };
+  std::visit(add_elements, body_->elements(), body_->law());
+  for (std::size_t k = part.masses_begin; k < part.masses_end; ++k) {
+    A->values[static_cast<std::size_t>(masses_[k].place)].topRows<3>().diagonal().array() +=
+        linearization.mass_factor * body_->masses()(masses_[k].node);
+  }
+}
+
+void StepMatrix::Assemble(const Linearization& linearization, NodeMatrix* A, Crew* crew) const {
+  const auto assemble = [&](int part, int /*member*/) {
+    AssemblePart(parts_[static_cast<std::size_t>(part)], linearization, A);
+  };
+  Share(crew, static_cast<int>(parts_.size()), assemble);
 }
 
 }  // namespace vacuum_gripper_sim

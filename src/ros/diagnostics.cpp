@@ -20,13 +20,16 @@ Diagnostics::Diagnostics(const std::string& hardware_id, double period, double t
   updater_.add("simulation", this, &Diagnostics::Report);
 }
 
-void Diagnostics::OnStep(const StepResult& result, double wall_time, double publishing,
-                         bool met_deadline) {
+void Diagnostics::OnStep(const StepResult& result, const StepCost& cost, bool met_deadline) {
   ++total_steps_;
-  const bool late = !met_deadline && static_cast<double>(total_steps_) * time_step_ > kStartUp;
-  if (late) {
+  const bool counts = static_cast<double>(total_steps_) * time_step_ > kStartUp;
+  if (counts && !met_deadline) {
     ++missed_deadlines_;
     ++window_.late;
+  }
+  if (counts && cost.computing > time_step_) {
+    ++overlong_steps_;
+    ++window_.overlong;
   }
   if (result.outcome != StepOutcome::kOk) {
     ++undone_steps_;
@@ -38,7 +41,7 @@ void Diagnostics::OnStep(const StepResult& result, double wall_time, double publ
   contacts_ = result.num_contacts;
   window_.max_iterations = std::max(window_.max_iterations, result.solver_iterations);
   window_.max_residual = std::max(window_.max_residual, result.solver_residual);
-  times_.Add(wall_time, publishing);
+  times_.Add(cost.wall, cost.publishing);
 }
 
 void Diagnostics::OnFailure(const std::string& message) {
@@ -65,6 +68,7 @@ void Diagnostics::Report(diagnostic_updater::DiagnosticStatusWrapper& status) {
   status.add("step budget [ms]", 1e3 * time_step_);
   status.add("scheduling", scheduling_);
   status.add("missed deadlines", missed_deadlines_);
+  status.add("steps computed longer than their period", overlong_steps_);
   status.add("skipped steps", skipped_);
   status.add("real-time factor", times_.count() * time_step_ / elapsed);
   status.add("contacts", contacts_);
@@ -92,8 +96,10 @@ void Diagnostics::Summarize(diagnostic_updater::DiagnosticStatusWrapper* status)
     status->summaryf(DiagnosticStatus::WARN, "%d steps not converged, residual up to %.3g m",
                      window_.unconverged, window_.max_residual);
   } else if (window_.late > 0 || skipped > 0) {
-    status->summaryf(DiagnosticStatus::WARN, "late: %d deadlines missed, %ld steps skipped",
-                     window_.late, skipped);
+    status->summaryf(DiagnosticStatus::WARN,
+                     "late: %d deadlines missed, %ld steps skipped, %d steps computed for longer "
+                     "than their period",
+                     window_.late, skipped, window_.overlong);
   } else if (times_.count() == 0) {
     status->summary(DiagnosticStatus::OK, "no step: the clock stands still");
   } else {

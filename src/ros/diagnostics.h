@@ -22,10 +22,14 @@ class Diagnostics {
   Diagnostics(const std::string& hardware_id, double period, double time_step,
               double solver_tolerance);
 
-  /** @param wall_time   What the step took. [s]
-      @param publishing  What publishing took meanwhile, on its own thread. [s]
-      @param met_deadline False if it ended after its period. */
-  void OnStep(const StepResult& result, double wall_time, double publishing, bool met_deadline);
+  /// What a step took. [s]
+  struct StepCost {
+    double wall{0.0};
+    double computing{0.0};   ///< CPU time of the loop's thread.
+    double publishing{0.0};  ///< Meanwhile, on a thread of its own.
+  };
+  /// @param met_deadline False if it ended after its period.
+  void OnStep(const StepResult& result, const StepCost& cost, bool met_deadline);
   /// The simulation could not be continued and began anew.
   void OnFailure(const std::string& message);
   /// A set-point was accepted, as a message or by a service.
@@ -45,6 +49,7 @@ class Diagnostics {
     int undone{0};
     int unconverged{0};
     int late{0};
+    int overlong{0};
     int max_iterations{0};
     double max_residual{0.0};  // [m]
     long skipped{0};           // Counter at the window's begin.
@@ -59,6 +64,7 @@ class Diagnostics {
   double solver_tolerance_;  // [m]
   long total_steps_{0};
   long missed_deadlines_{0};
+  long overlong_steps_{0};  // That computed for longer than their period.
   long undone_steps_{0};
   long skipped_{0};
   unsigned contacts_{0};

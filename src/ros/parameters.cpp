@@ -60,6 +60,7 @@ constexpr Required kRequired[] = {
     {"linear_solver", "tolerance"},
     {"linear_solver", "max_iterations"},
     {"linear_solver", "refactor_interval"},
+    {"linear_solver", "threads"},
     {"vacuum", "source"},
     {"vacuum", "manifold_volume"},
     {"vacuum.regulator", "time_constant"},

@@ -13,6 +13,7 @@
 
 #include "loop_priority.h"
 #include "messages.h"
+#include "thread_time.h"
 #include "vacuum_gripper_sim/core/gmsh_reader.h"
 
 namespace vacuum_gripper_sim {
@@ -103,6 +104,7 @@ void VacuumGripperNode::Run() {
 
 void VacuumGripperNode::Step(const ros::Time& stamp) {
   const ros::WallTime begin = ros::WallTime::now();
+  const double computing_before = ThreadTime();
   world_.Update(tf_buffer_, &simulator_);
   if (parameters_.actuator == ActuatorSource::kTf) FollowMountFrame();
   faults_.Update(&simulator_);
@@ -120,9 +122,12 @@ void VacuumGripperNode::Step(const ros::Time& stamp) {
   if (!undone) margin_monitor_.OnStep(stamp, simulator_);
 
   const bool met_deadline = schedule_.OnStepFinished(ros::Time::now());
-  const ros::WallTime end = ros::WallTime::now();
+  Diagnostics::StepCost cost;
+  cost.wall = (ros::WallTime::now() - begin).toSec();
+  cost.computing = ThreadTime() - computing_before;
+  cost.publishing = outbox_.TakeDeliveryTime();
   diagnostics_.SetSkippedSteps(schedule_.skipped_steps());
-  diagnostics_.OnStep(result, (end - begin).toSec(), outbox_.TakeDeliveryTime(), met_deadline);
+  diagnostics_.OnStep(result, cost, met_deadline);
 }
 
 void VacuumGripperNode::Post(Occasion occasion, const ros::Time& stamp) {

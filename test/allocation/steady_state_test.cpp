@@ -87,6 +87,12 @@ SteadyCase ConjugateGradient(const std::string& bell) {
   return result;
 }
 
+SteadyCase Shared(const std::string& bell) {
+  SteadyCase result = Case(bell, "shared");
+  result.parameters.linear_solver.threads = 2;
+  return result;
+}
+
 SteadyCase Ejector(const std::string& bell) {
   SteadyCase result = Case(bell, "ejector");
   result.parameters.vacuum.source = VacuumSourceType::kEjector;
@@ -125,7 +131,7 @@ INSTANTIATE_TEST_SUITE_P(Cups, SteadyState,
                                          ConjugateGradient(kLinear), Ejector(kLinear),
                                          Friction(kLinear), FreeBox(kLinear), Direct(kQuadratic),
                                          DoublePrecision(kQuadratic), ConjugateGradient(kQuadratic),
-                                         Ejector(kQuadratic)),
+                                         Shared(kQuadratic), Ejector(kQuadratic)),
                          NameOf);
 INSTANTIATE_TEST_SUITE_P(Cups, PulledGrip,
                          testing::Values(Direct(kLinear), ConjugateGradient(kLinear),

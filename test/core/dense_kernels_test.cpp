@@ -80,7 +80,7 @@ TYPED_TEST(DenseKernels, SolvesOnTheRight) {
     for (const Index rows : {1, 2, 7, 8, 100}) {
       const Matrix X = Matrix::Random(rows, columns);
       Matrix solved = X;
-      SolveOnTheRight(rows, columns, L.data(), columns, solved.data());
+      SolveOnTheRight(rows, columns, L.data(), columns, solved.data(), rows);
       EXPECT_LT((solved * L.transpose() - X).norm(), TestFixture::kError * X.norm())
           << rows << " " << columns;
     }

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <random>
 #include <set>
+#include <utility>
 
 #include "support/block_mesh.h"
 #include "support/node_matrices.h"
@@ -154,15 +155,83 @@ TEST(SparseCholesky, EliminatedColumnsAreHalfOfTheInverse) {
   EXPECT_LT((solved - moved).norm(), 1e-12 * moved.norm());
 }
 
-TEST(SparseCholesky, RefusesWhatIsNotPositiveDefinite) {
+// The same operations, whoever does them.
+TEST(SparseCholesky, ACrewMakesTheSameNumbers) {
+  const NodeMatrix A = StepMatrix(5, true);
+  const auto columns = RandomColumns(A.num_nodes, 130, 6);
+  const Eigen::VectorXd b = Eigen::VectorXd::LinSpaced(3 * A.num_nodes, -1.0, 2.0);
+  for (const Precision precision : {Precision::kDouble, Precision::kSingle}) {
+    SparseCholesky alone;
+    alone.Analyze(A);
+    ASSERT_TRUE(alone.Factorize(A, precision));
+    for (const int size : {1, 2, 4}) {
+      Crew crew(size);
+      SparseCholesky shared;
+      shared.Analyze(A, &crew);
+      for (int round = 0; round < 5; ++round) {
+        ASSERT_TRUE(shared.Factorize(A, precision));
+        EXPECT_EQ(shared.Solve(b), alone.Solve(b));
+        EXPECT_EQ(Gram(Eliminated(columns, shared)), Gram(Eliminated(columns, alone)));
+      }
+      // A copy that works alone on what was cut for several.
+      SparseCholesky copy = shared;
+      copy.WorkAlone();
+      ASSERT_TRUE(copy.Factorize(A, precision));
+      EXPECT_EQ(copy.Solve(b), alone.Solve(b));
+    }
+  }
+}
+
+TEST(SparseCholesky, ExchangesFactors) {
   NodeMatrix A = StepMatrix(2, false);
+  SparseCholesky first, second;
+  first.Analyze(A);
+  second.Analyze(A);
+  ASSERT_TRUE(first.Factorize(A, Precision::kSingle));
+  for (NodeBlock& block : A.values) block *= 2.0;
+  ASSERT_TRUE(second.Factorize(A, Precision::kDouble));
+  const Eigen::VectorXd b = Eigen::VectorXd::Ones(3 * A.num_nodes);
+  const Eigen::VectorXd x_first = first.Solve(b), x_second = second.Solve(b);
+  first.SwapFactor(&second);
+  EXPECT_EQ(first.precision(), Precision::kDouble);
+  EXPECT_EQ(first.Solve(b), x_second);
+  EXPECT_EQ(second.Solve(b), x_first);
+}
+
+TEST(SparseCholesky, BlocksAtTheSamePlaceAddUp) {
+  const NodeMatrix A = StepMatrix(2, true);
+  NodeMatrix halves = A;
+  for (NodeBlock& block : halves.values) block *= 0.5;
+  halves.places.insert(halves.places.end(), A.places.begin(), A.places.end());
+  halves.values.insert(halves.values.end(), halves.values.begin(),
+                       halves.values.begin() + static_cast<std::ptrdiff_t>(A.values.size()));
+  SparseCholesky whole, summed;
+  whole.Analyze(A);
+  summed.Analyze(halves);
+  ASSERT_TRUE(whole.Factorize(A));
+  ASSERT_TRUE(summed.Factorize(halves));
+  const Eigen::VectorXd b = Eigen::VectorXd::Ones(3 * A.num_nodes);
+  EXPECT_EQ(whole.Solve(b), summed.Solve(b));
+}
+
+class Refusal : public testing::TestWithParam<int> {};
+
+TEST_P(Refusal, WhatIsNotPositiveDefinite) {
+  NodeMatrix A = StepMatrix(2, false);
+  Crew crew(GetParam());
   SparseCholesky cholesky;
-  cholesky.Analyze(A);
+  cholesky.Analyze(A, &crew);
+  ASSERT_TRUE(cholesky.Factorize(A));
   const auto is_diagonal = [](const auto& place) { return place.row == 2 && place.column == 2; };
   const auto place = std::find_if(A.places.begin(), A.places.end(), is_diagonal);
-  A.values[static_cast<std::size_t>(place - A.places.begin())](1, 1) = -1.0;
+  double& number = A.values[static_cast<std::size_t>(place - A.places.begin())](1, 1);
+  const double before = std::exchange(number, -1.0);
   EXPECT_FALSE(cholesky.Factorize(A));
+  number = before;
+  EXPECT_TRUE(cholesky.Factorize(A));
 }
+
+INSTANTIATE_TEST_SUITE_P(SparseCholesky, Refusal, testing::Values(1, 3));
 
 }  // namespace
 }  // namespace vacuum_gripper_sim

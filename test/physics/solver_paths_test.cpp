@@ -153,6 +153,23 @@ TEST(SolverPaths, ConjugateGradientsWithAnOldFactorisationAgreeWithTheDirectSolv
   }
 }
 
+// Bit by bit, with every method whose results do not depend on timing.
+TEST(SolverPaths, ThreadsThatShareAFactorisationChangeNothing) {
+  for (const char* const bell : {"linear_700", "quadratic_700"}) {
+    for (const auto method :
+         {LinearSolverMethod::kDirect, LinearSolverMethod::kConjugateGradient}) {
+      SimulatorParameters alone = A20(0.01);
+      alone.linear_solver.method = method;
+      SimulatorParameters shared = alone;
+      shared.linear_solver.threads = 3;
+      const Difference difference = WholeCycleDifference(shared, alone, bell);
+      EXPECT_EQ(difference.position, 0.0);
+      EXPECT_EQ(difference.force, 0.0);
+      EXPECT_TRUE(difference.same_status);
+    }
+  }
+}
+
 // Of whatever age the second thread happens to deliver.
 TEST(SolverPaths, AsynchronousFactorisationsAgreeWithTheDirectSolver) {
   for (const char* const bell : {"linear_700", "quadratic_700"}) {

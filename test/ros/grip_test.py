@@ -332,6 +332,7 @@ class DisplayTest(GripTestCase):
         values = {value.key: value.value for value in statuses[-1].values}
         for key in ('step time mean [ms]', 'step time 99th percentile [ms]',
                     'publishing share [%]', 'step budget [ms]', 'missed deadlines',
+                    'steps computed longer than their period',
                     'real-time factor', 'contacts', 'solver iterations max',
                     'solver residual max [m]', 'set-point age [s]'):
             self.assertIn(key, values)

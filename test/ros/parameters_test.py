@@ -58,6 +58,7 @@ WRONG = {
     'linear_solver.tolerance': [0.0],
     'linear_solver.max_iterations': [0],
     'linear_solver.refactor_interval': [0],
+    'linear_solver.threads': [0, 17],
     'vacuum.source': ['magic'],
     'vacuum.manifold_volume': [0.0],
     'vacuum.regulator.time_constant': [-0.1],

@@ -36,8 +36,8 @@ inline Eigen::MatrixXd Dense(const NodeMatrix& A) {
   for (std::size_t i = 0; i < A.places.size(); ++i) {
     const auto& [row, column] = A.places[i];
     const Eigen::Matrix3d block = A.values[i].topRows<3>();
-    dense.block<3, 3>(3 * row, 3 * column) = block;
-    dense.block<3, 3>(3 * column, 3 * row) = block.transpose();
+    dense.block<3, 3>(3 * row, 3 * column) += block;
+    if (row != column) dense.block<3, 3>(3 * column, 3 * row) += block.transpose();
   }
   return dense;
 }

@@ -11,7 +11,7 @@ namespace vacuum_gripper_sim {
 
      gravity: [x, y, z]                                    # [m/s^2]
      linear_solver: {method: direct|conjugate_gradient|asynchronous, precision: double|single,
-                     tolerance, max_iterations, refactor_interval}
+                     tolerance, max_iterations, refactor_interval, threads}
      contact: {solver: active_set|gauss_seidel, tolerance, acceptable_residual, max_iterations,
                relaxation, alarm_distance}
      seal: {close_gap, open_gap, max_rounds, ramp_increments}

@@ -47,7 +47,8 @@ class ImplicitEuler {
   const Linearization& linearization() const { return linearization_; }
   const StepMatrix& matrix() const { return matrix_; }
   /// A_ff, assembled if that has not been done since Linearize(). [kg]
-  const NodeMatrix& A_ff();
+  /// @param crew Shares that work; none: the calling thread alone.
+  const NodeMatrix& A_ff(Crew* crew = nullptr);
   /// Of the step's impulses, however little the body moves: norm of the free nodes' masses times h
   /// and standard gravity. [kg m/s]
   double ImpulseScale() const;

@@ -7,6 +7,7 @@
 
 #include "vacuum_gripper_sim/core/background_factorization.h"
 #include "vacuum_gripper_sim/core/constraint_operator.h"
+#include "vacuum_gripper_sim/core/crew.h"
 #include "vacuum_gripper_sim/core/implicit_euler.h"
 #include "vacuum_gripper_sim/core/linearized_contacts.h"
 #include "vacuum_gripper_sim/core/parameters.h"
@@ -91,6 +92,7 @@ class LinearSolver {
 
   LinearSolverParameters parameters_;
   ImplicitEuler* system_;
+  Crew crew_;
   SparseCholesky factorization_;
   bool usable_{false};  // does factorization_ hold a factor?
   int generation_{0};

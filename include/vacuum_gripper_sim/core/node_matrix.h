@@ -17,7 +17,7 @@ struct NodeMatrix {
   };
 
   int num_nodes{0};
-  std::vector<Place> places;      ///< Each pair of nodes once at most, in any order.
+  std::vector<Place> places;      ///< In any order. Blocks at the same place add up.
   std::vector<NodeBlock> values;  ///< By place.
 };
 

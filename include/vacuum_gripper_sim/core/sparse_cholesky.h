@@ -6,7 +6,9 @@
 #include <variant>
 #include <vector>
 
+#include "vacuum_gripper_sim/core/crew.h"
 #include "vacuum_gripper_sim/core/eliminated_columns.h"
+#include "vacuum_gripper_sim/core/elimination_branches.h"
 #include "vacuum_gripper_sim/core/elimination_order.h"
 #include "vacuum_gripper_sim/core/matrix_memory.h"
 #include "vacuum_gripper_sim/core/node_matrix.h"
@@ -25,7 +27,8 @@ namespace vacuum_gripper_sim {
  The factor's numbers may be in single precision, for twice the speed; what goes in and comes out is
  in double precision all the same, with an error that |L| |L^T| and single rounding make.
 
- Solves share working memory: one thread at a time.
+ Factorisations and columns can be shared among the threads of a crew; the numbers are the same with
+ any. Solves share working memory: one thread at a time.
 
  [Duff 1983] I. S. Duff, J. K. Reid, "The multifrontal solution of indefinite sparse symmetric
  linear equations", ACM TOMS 9(3). [Liu 1992] J. W. H. Liu, "The multifrontal method for sparse
@@ -33,7 +36,11 @@ namespace vacuum_gripper_sim {
 class SparseCholesky {
  public:
   /// Finds ordering and structure.
-  void Analyze(const NodeMatrix& A);
+  /// @param crew Shares the work from now on, and must outlive this; none: the calling thread
+  /// alone.
+  void Analyze(const NodeMatrix& A, Crew* crew = nullptr);
+  /// From now on without a crew.
+  void WorkAlone() { crew_ = nullptr; }
   bool analyzed() const { return !supernodes_.empty(); }
   /// A falls into this many pieces without entries between them,
   int num_pieces() const { return num_pieces_; }
@@ -44,6 +51,9 @@ class SparseCholesky {
   /// @returns false if A is not positive definite, to the given precision; the factor is unusable
   /// then.
   bool Factorize(const NodeMatrix& A, Precision precision = Precision::kDouble);
+
+  /// Exchanges the factors of two that have been analysed alike.
+  void SwapFactor(SparseCholesky* other) { numbers_.swap(other->numbers_); }
 
   /// Of the last factorisation.
   Precision precision() const {
@@ -88,13 +98,14 @@ class SparseCholesky {
     bool mirrored{false};    ///< Its node of the column is eliminated after that of the row.
   };
 
-  /// Values of the factor, and updates that wait for their parent, on two stacks: in postorder a
-  /// front finds its children on top of one and leaves its own update on the other.
+  /// Values of the factor, and updates that wait for their parent, on two stacks for each branch:
+  /// in postorder a front finds its children on top of one and leaves its own update on the other.
   template <typename Scalar>
   struct Numbers {
     std::vector<Scalar> factor;
     std::array<std::vector<Scalar>, 2> updates;
     mutable MatrixMemory<Scalar> solution, front_rows;  // of solves: of all rows, of a front
+    mutable std::vector<MatrixMemory<Scalar>> updates_of_columns;  // by member of the crew
 
     /// What a front leaves to its parent, 3 #below square.
     Scalar* UpdateOf(const Supernode& front) {
@@ -106,6 +117,7 @@ class SparseCholesky {
   void FindSupernodes(const NodeGraph& graph);
   void MergeSmallSupernodes();
   void LinkSupernodes();
+  void CutIntoBranches();
   void PlaceUpdates();
   void MapEntries(const NodeMatrix& A);
   template <typename Scalar>
@@ -121,7 +133,12 @@ class SparseCholesky {
   template <typename Scalar>
   void EliminateColumns(const Numbers<Scalar>& numbers, const std::vector<NodeColumn>& B,
                         EliminatedColumns* Y) const;
+  template <typename Scalar>
+  void EliminateColumns(const Numbers<Scalar>& numbers, Eigen::Index begin, Eigen::Index end,
+                        MatrixMemory<Scalar>* updates, const EliminatedColumns& Y,
+                        std::vector<Scalar>* values) const;
 
+  Crew* crew_{nullptr};
   Eigen::Index size_{0};           // scalars
   Eigen::Index largest_front_{0};  // rows, scalars
   EliminationOrder elimination_;
@@ -129,6 +146,7 @@ class SparseCholesky {
   int num_pieces_{0};
   std::vector<Supernode> supernodes_;
   std::vector<int> supernode_of_;  // by position
+  EliminationBranches branches_;   // of supernodes, for the crew
   std::vector<Entry> entries_;     // by supernode
   std::size_t factor_size_{0};
   std::array<std::size_t, 2> update_sizes_{};

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "vacuum_gripper_sim/core/crew.h"
 #include "vacuum_gripper_sim/core/elastic_body.h"
 #include "vacuum_gripper_sim/core/node_matrix.h"
 #include "vacuum_gripper_sim/core/point_pack.h"
@@ -19,7 +20,10 @@ struct Linearization {
 };
 
 /** Assembles A of the free nodes. What depends on the mesh alone is found once; different threads
- may assemble at the same time. */
+ may assemble at the same time.
+
+ Elements are assembled in a few parts of neighbours, each into blocks of its own, so that threads
+ can share the work without sharing memory. Between parts, places repeat. */
 class StepMatrix {
  public:
   /// @param body Must outlive this. @param free_row First of a node's three rows; -1: clamped.
@@ -28,25 +32,38 @@ class StepMatrix {
   /// The sparsity, with values of zero.
   const NodeMatrix& pattern() const { return pattern_; }
   /// @param[in,out] A A copy of pattern(); its values are replaced. [kg]
-  void Assemble(const Linearization& linearization, NodeMatrix* A) const;
+  /// @param crew Shares the work; none: the calling thread alone. The same values either way.
+  void Assemble(const Linearization& linearization, NodeMatrix* A, Crew* crew = nullptr) const;
 
  private:
   /// A block of an element's matrix that A has a place for.
-  struct Share {
+  struct ElementBlock {
     std::uint8_t a{0}, b{0};  ///< Nodes of the element, of row and column.
     int place{0};             ///< In A.
   };
+  struct Mass {
+    int node{0};
+    int place{0};  ///< Of its diagonal block.
+  };
+  /// Ranges of elements_, blocks_, masses_ and of A's places.
+  struct Part {
+    std::size_t elements_begin{0}, elements_end{0};
+    std::size_t blocks_begin{0};
+    std::size_t masses_begin{0}, masses_end{0};
+    std::ptrdiff_t places_begin{0}, places_end{0};
+  };
 
-  template <typename Element, typename Law>
-  void AddElements(const std::vector<Element>& elements, const Law& law,
-                   const Linearization& linearization, NodeMatrix* A) const;
+  template <typename Element>
+  void FindParts(const std::vector<Element>& elements, const std::vector<int>& free_row);
+  void AssemblePart(const Part& part, const Linearization& linearization, NodeMatrix* A) const;
 
   const ElasticBody* body_;
   NodeMatrix pattern_;
-  std::vector<Share> shares_;            // element by element
-  std::vector<std::size_t> shares_end_;  // by element
-  std::vector<int> mass_nodes_;          // the free nodes
-  std::vector<int> diagonal_;            // place of each of these
+  std::vector<Part> parts_;
+  std::vector<std::size_t> elements_;    // part by part
+  std::vector<ElementBlock> blocks_;     // in this order
+  std::vector<std::size_t> blocks_end_;  // of elements_
+  std::vector<Mass> masses_;
 };
 
 }  // namespace vacuum_gripper_sim

@@ -1,0 +1,113 @@
+#pragma once
+
+#include <atomic>
+#include <condition_variable>
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+namespace vacuum_gripper_sim {
+
+/** Threads that do one piece of work at a time together: the one that has it, and helpers.
+
+ Tasks are taken by whoever is free. Nobody waits for a helper that has not come: the others do all
+ the tasks. So which thread does what differs from time to time, and results must not depend on
+ it. One piece of work at a time. */
+class Crew {
+ public:
+  /// @param size Threads, the caller's among them. >= 1. @throws std::system_error if the system
+  /// has none left.
+  explicit Crew(int size);
+  ~Crew();
+  Crew(const Crew&) = delete;
+  Crew& operator=(const Crew&) = delete;
+
+  int size() const { return size_; }
+
+  /// Tasks of a forest, in an order that has all children before their parent, as is done.
+  struct Forest {
+    std::vector<int> parent;        ///< -1: none.
+    std::vector<int> num_children;  ///< Of each task.
+    std::vector<int> leaves;        ///< Tasks without children, in the order to begin them.
+  };
+
+  /// Calls task(i, member) for 0 <= i < num_tasks, where member < size() tells the threads apart,
+  /// and returns when all have returned. None may throw.
+  template <typename Task>
+  void Do(int num_tasks, const Task& task);
+  /// The same for the tasks of a forest.
+  template <typename Task>
+  void Do(const Forest& forest, const Task& task);
+
+ private:
+  using Function = void (*)(const void* work, int member);
+
+  void Call(Function function, const void* work);
+  void Help(int member);
+
+  int size_;
+  std::mutex mutex_;  // for all that changes until next_; numbers may be looked at without it
+  std::condition_variable called_, left_;
+  Function function_{nullptr};              // of the work that helpers may still join
+  const void* work_{nullptr};               // its first argument
+  std::atomic<std::int64_t> num_calls_{0};  // so far; one more to stop
+  std::atomic<int> at_work_{0};             // helpers
+  bool stop_{false};
+
+  std::atomic<int> next_{0};              // task, or leaf, to begin
+  std::deque<std::atomic<int>> missing_;  // children to be done, by task
+
+  std::vector<std::thread> helpers_;  // last: start when all else is there
+};
+
+template <typename Task>
+void Crew::Do(int num_tasks, const Task& task) {
+  next_ = 0;
+  const auto work = [&](int member) {
+    for (int i = next_++; i < num_tasks; i = next_++) task(i, member);
+  };
+  Call([](const void* w, int member) { (*static_cast<const decltype(work)*>(w))(member); }, &work);
+}
+
+template <typename Task>
+void Crew::Do(const Forest& forest, const Task& task) {
+  next_ = 0;
+  while (missing_.size() < forest.parent.size()) missing_.emplace_back(0);
+  for (std::size_t i = 0; i < forest.parent.size(); ++i) missing_[i] = forest.num_children[i];
+  const auto num_leaves = static_cast<int>(forest.leaves.size());
+  const auto work = [&](int member) {
+    for (int leaf = next_++; leaf < num_leaves; leaf = next_++) {
+      // Whoever does the last child goes on to its parent.
+      for (int i = forest.leaves[static_cast<std::size_t>(leaf)]; i >= 0;) {
+        task(i, member);
+        i = forest.parent[static_cast<std::size_t>(i)];
+        if (i >= 0 && --missing_[static_cast<std::size_t>(i)] > 0) break;
+      }
+    }
+  };
+  Call([](const void* w, int member) { (*static_cast<const decltype(work)*>(w))(member); }, &work);
+}
+
+/// The tasks of one of the above by a crew; or, without one, by this thread in their order.
+template <typename Task>
+void Share(Crew* crew, int num_tasks, const Task& task) {
+  if (crew != nullptr) {
+    crew->Do(num_tasks, task);
+  } else {
+    for (int i = 0; i < num_tasks; ++i) task(i, 0);
+  }
+}
+
+template <typename Task>
+void Share(Crew* crew, const Crew::Forest& forest, const Task& task) {
+  if (crew != nullptr) {
+    crew->Do(forest, task);
+  } else {
+    Share(nullptr, static_cast<int>(forest.parent.size()), task);
+  }
+}
+
+}  // namespace vacuum_gripper_sim
