@@ -20,7 +20,8 @@ void CavityStage::Begin(const Eigen::Matrix3Xd& x_W) {
 }
 
 bool CavityStage::Solve(const std::vector<double>& pressures, const std::vector<bool>& wet,
-                        ContactStage* stage, SuctionSolution* solution, StepTimings* timings) {
+                        ContactStage::Accuracy accuracy, ContactStage* stage,
+                        SuctionSolution* solution, StepTimings* timings) {
   solution->load.setZero(3, num_nodes_);
   was_wet_.assign(cavity_->nodes.size(), false);
   for (std::size_t cup = 0; cup < pressures.size(); ++cup) {
@@ -32,7 +33,7 @@ bool CavityStage::Solve(const std::vector<double>& pressures, const std::vector<
       solution->load.col(cavity_->nodes[i]) += pressures[cup] * area_vectors_.col(point);
     }
   }
-  if (!stage->Solve(solution->load, &solution->contact, timings)) return false;
+  if (!stage->Solve(solution->load, accuracy, &solution->contact, timings)) return false;
   const Stopwatch stopwatch(&timings->classification);
   ClassifyEnd(*stage, solution->contact, &solution->classification);
   return true;

@@ -234,13 +234,16 @@ bool ContactStage::Refine(ContactSolution* solution) {
     held_.push_back(contact.tangent());
     held_.push_back(contact.tangent() + 1);
   }
-  const bool converged = solver_->Refine(impulse_, operator_, held_, &solution->dv, &lambda_);
+  const double slack = accuracy_ == Accuracy::kTrial ? 100.0 : 1.0;
+  const bool converged =
+      solver_->Refine(impulse_, operator_, held_, &solution->dv, &lambda_, slack);
   SetForces(lambda_);
   return converged;
 }
 
-bool ContactStage::Solve(const Eigen::Matrix3Xd& load, ContactSolution* solution,
+bool ContactStage::Solve(const Eigen::Matrix3Xd& load, Accuracy accuracy, ContactSolution* solution,
                          StepTimings* timings) {
+  accuracy_ = accuracy;
   PressureOnObjects(load, x0_, finder_, *world_, &pressure_on_);
   system_->GatherFree(load, &impulse_.cup);
   impulse_.cup = b_ + h_ * impulse_.cup;

@@ -97,7 +97,9 @@ bool GasSuction::Solve(const Eigen::Matrix3Xd& x_W, const Eigen::Isometry3d& X_W
   searches_.clear();
   for (const double slope : state->air.slope) searches_.emplace_back(slope);
   for (flows_.rounds = 1;; ++flows_.rounds) {
-    if (!cavity_.Solve(pressure_, wet, stage, solution, timings)) return false;
+    if (!cavity_.Solve(pressure_, wet, ContactStage::Accuracy::kFull, stage, solution, timings)) {
+      return false;
+    }
     const Stopwatch stopwatch(&timings->air);
     cavity_leak_.Measure(*stage, world, *solution, wet, cavity_.area_vectors(), faults_, &leaks_);
     MeasureVolumes(x_W, world, h, *stage, *state, solution->contact);

@@ -153,8 +153,10 @@ void LinearSolver::Precondition(const ConstraintOperator& constraints, bool any_
 }
 
 bool LinearSolver::Refine(const SystemVector& b, const ConstraintOperator& constraints,
-                          const std::vector<Index>& held, SystemVector* dv, VectorXd* lambda) {
-  const double bound = parameters_.tolerance * std::max(b.cup.norm(), system_->ImpulseScale());
+                          const std::vector<Index>& held, SystemVector* dv, VectorXd* lambda,
+                          double slack) {
+  const double bound =
+      slack * parameters_.tolerance * std::max(b.cup.norm(), system_->ImpulseScale());
   r_.cup = b.cup - system_->Multiply(dv->cup);
   constraints.BodyImpulses(dv->bodies, &r_.bodies);
   r_.bodies = b.bodies - r_.bodies;

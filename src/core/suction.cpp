@@ -9,8 +9,9 @@ Suction::Suction(const CavitySurface& cavity, const SealParameters& seal,
                  const RegulatorParameters& regulator, double young_modulus)
     : cavity_(cavity, *seal.open_gap, young_modulus), seal_(seal), regulator_(regulator) {}
 
-bool Suction::SolveOnce(ContactStage* stage, SuctionSolution* solution, StepTimings* timings) {
-  return cavity_.Solve(pressures_, wet_, stage, solution, timings);
+bool Suction::SolveOnce(Accuracy accuracy, ContactStage* stage, SuctionSolution* solution,
+                        StepTimings* timings) {
+  return cavity_.Solve(pressures_, wet_, accuracy, stage, solution, timings);
 }
 
 void Suction::SetWet(const std::vector<int>& cups, const Classification& classification) {
@@ -46,7 +47,7 @@ bool Suction::HoldSeals(ContactStage* stage, GripState* state, SuctionSolution* 
   do {
     SetWet(holding_, state->classification);
     for (int round = 1;; ++round) {
-      if (!SolveOnce(stage, solution, timings)) return false;
+      if (!SolveOnce(Accuracy::kFull, stage, solution, timings)) return false;
       if (round == seal_.max_rounds || holding_.empty()) break;
       const auto num_seen = static_cast<std::size_t>(round);
       if (seen_.size() < num_seen) seen_.emplace_back();
@@ -76,24 +77,30 @@ bool Suction::TryToSeal(ContactStage* stage, GripState* state, SuctionSolution* 
     trying_.push_back(static_cast<int>(cup));
   }
   SetWet(trying_, solution->classification);
+  bool settled = false;  // Has the last increment been solved with the final classification?
   for (int i = 1; i <= seal_.ramp_increments && !trying_.empty(); ++i) {  // (2)
+    const bool is_last = i == seal_.ramp_increments;
     for (const int cup : trying_) {
       const auto k = static_cast<std::size_t>(cup);
-      pressures_[k] = of_new_seals_[k] * i / seal_.ramp_increments;
+      pressures_[k] = is_last ? of_new_seals_[k] : of_new_seals_[k] * i / seal_.ramp_increments;
     }
-    if (!SolveOnce(stage, solution, timings)) return false;
+    loaded_ = wet_;
+    if (!SolveOnce(is_last ? Accuracy::kFull : Accuracy::kTrial, stage, solution, timings)) {
+      return false;
+    }
     SetWet(trying_, solution->classification);
-    if (ReleaseOpen(solution->classification, &trying_) && trying_.empty()) {
-      return SolveOnce(stage, solution, timings);  // suction opens them: no seal yet
+    const bool some_opened = ReleaseOpen(solution->classification, &trying_);
+    if (some_opened && trying_.empty()) {  // suction opens them: no seal yet
+      return SolveOnce(Accuracy::kFull, stage, solution, timings);
     }
+    settled = !some_opened && wet_ == loaded_;
   }
   if (trying_.empty()) return true;
-  for (const int cup : trying_) {
-    pressures_[static_cast<std::size_t>(cup)] = of_new_seals_[static_cast<std::size_t>(cup)];
+  if (!settled) {
+    do {  // (3)
+      if (!SolveOnce(Accuracy::kFull, stage, solution, timings)) return false;
+    } while (ReleaseOpen(solution->classification, &trying_));
   }
-  do {  // (3)
-    if (!SolveOnce(stage, solution, timings)) return false;
-  } while (ReleaseOpen(solution->classification, &trying_));
   for (const int cup : trying_) {
     const auto k = static_cast<std::size_t>(cup);
     state->cups[k].sealed = true;

@@ -26,7 +26,8 @@ class CavityStage {
    @param stage Begun with the step's free motion. @param[out] solution @param[in,out] timings
    @returns false if A is not positive definite. */
   bool Solve(const std::vector<double>& pressures, const std::vector<bool>& wet,
-             ContactStage* stage, SuctionSolution* solution, StepTimings* timings);
+             ContactStage::Accuracy accuracy, ContactStage* stage, SuctionSolution* solution,
+             StepTimings* timings);
 
   const CavitySurface& cavity() const { return *cavity_; }
   /// Of the points at the step's start. [m^2]

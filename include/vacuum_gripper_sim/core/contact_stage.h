@@ -76,12 +76,17 @@ class ContactStage {
              const Eigen::VectorXd& b, const Eigen::Matrix3Xd& dv_c,
              const Eigen::VectorXd& b_bodies, double h);
 
+  /// kTrial: an end of the step that is only looked at, found to a hundred times
+  /// LinearSolverParameters::tolerance.
+  enum class Accuracy { kTrial, kFull };
+
   /** Solves the contacts under a load; may be called several times a step.
    @param load Force on every node, 3 by #nodes. [N]
    @param[out] solution
    @param[in,out] timings Adds to free_motion, narrow_phase, delassus, solve and correction.
    @returns false if A is not positive definite. */
-  bool Solve(const Eigen::Matrix3Xd& load, ContactSolution* solution, StepTimings* timings);
+  bool Solve(const Eigen::Matrix3Xd& load, Accuracy accuracy, ContactSolution* solution,
+             StepTimings* timings);
 
   /// Of a point to the surface nearest to it, where the last Solve() left them; +inf without any.
   /// @param p_W World. [m]
@@ -131,6 +136,7 @@ class ContactStage {
   Eigen::Matrix3Xd x0_, v0_, dv_c_;
   Eigen::VectorXd b_, b_bodies_;
   double h_{0.0};
+  Accuracy accuracy_{Accuracy::kFull};  // of the solve at hand
   ContactFinder finder_;
   std::vector<ObjectLoad> pressure_on_;     // of the current load, by object
   std::vector<RigidSurface> surfaces_end_;  // of the current trial, if bodies move

@@ -71,13 +71,15 @@ class LinearSolver {
    @param b Impulses of the cup and of the bodies. [N s] @param constraints Of factorization().
    @param held Indices of its rows. @param[in,out] dv Motion. [m/s]
    @param[in,out] lambda A force for every row. [N]
-   @returns false if |r| <= tolerance max(|b|, ImplicitEuler::ImpulseScale()) is out of reach of
-   max_iterations.
+   @param slack How many times the tolerance will do.
+   @returns false if |r| <= slack tolerance max(|b|, ImplicitEuler::ImpulseScale()) is out of reach
+   of max_iterations.
 
    [Gould 2001] N. I. M. Gould, M. E. Hribar, J. Nocedal, "On the solution of equality constrained
    quadratic programming problems arising in optimization", SIAM J. Sci. Comput. 23(4). */
   bool Refine(const SystemVector& b, const ConstraintOperator& constraints,
-              const std::vector<Eigen::Index>& held, SystemVector* dv, Eigen::VectorXd* lambda);
+              const std::vector<Eigen::Index>& held, SystemVector* dv, Eigen::VectorXd* lambda,
+              double slack = 1.0);
 
   int iterations() const { return iterations_; }          ///< CG, since Compute().
   int factorizations() const { return factorizations_; }  ///< On this thread, since Compute().

@@ -21,11 +21,11 @@ namespace vacuum_gripper_sim {
 
  Without an earlier seal, the paper's three stages: (1) contacts without pressure; if the cavity is
  then airtight, (2) raise lambda_p in increments, reclassifying after each; (3) solve the contacts
- with the final classification. With an earlier seal, the step starts from the previous pressure and
- classification instead - without its pressure the lip would spring off within one implicit step and
- a tight cup would read as leaking - and is solved and reclassified until the wet points repeat or
- `max_rounds` is reached. The seal is lost only if the state at the *end* leaks; then the step is
- solved again without pressure.
+ with the final classification, unless the last increment already had it. With an earlier seal, the
+ step starts from the previous pressure and classification instead - without its pressure the lip
+ would spring off within one implicit step and a tight cup would read as leaking - and is solved and
+ reclassified until the wet points repeat or `max_rounds` is reached. The seal is lost only if the
+ state at the *end* leaks; then the step is solved again without pressure.
 
  The regulator moves lambda_p towards the set-point by at most ramp_rate * h a step. Several cups
  take these ways side by side, each with a seal of its own. */
@@ -46,8 +46,11 @@ class Suction {
              GripState* state, SuctionSolution* solution, StepTimings* timings);
 
  private:
+  using Accuracy = ContactStage::Accuracy;
+
   /// Solves with the pressures and the wet points of the moment.
-  bool SolveOnce(ContactStage* stage, SuctionSolution* solution, StepTimings* timings);
+  bool SolveOnce(Accuracy accuracy, ContactStage* stage, SuctionSolution* solution,
+                 StepTimings* timings);
   bool HoldSeals(ContactStage* stage, GripState* state, SuctionSolution* solution,
                  StepTimings* timings);
   bool TryToSeal(ContactStage* stage, GripState* state, SuctionSolution* solution,
@@ -67,6 +70,7 @@ class Suction {
   std::vector<double> of_new_seals_;     // pressures that cups with a new seal are to have [Pa]
   std::vector<int> holding_, trying_;    // cups
   std::vector<std::vector<bool>> seen_;  // wet points by round
+  std::vector<bool> loaded_;             // wet points of the last increment
 };
 
 }  // namespace vacuum_gripper_sim
