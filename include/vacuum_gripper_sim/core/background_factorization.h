@@ -32,8 +32,8 @@ class BackgroundFactorization {
 
   /// Copies what A is made of and starts. @pre status() is kIdle.
   void Start(const Linearization& linearization);
-  /// Ends a factorisation. @pre status() is kDone. @returns it, the caller's until the next Start(),
-  /// its factor to be exchanged at will; nothing if A was not positive definite.
+  /// Ends a factorisation. @pre status() is kDone. @returns it, the caller's until the next
+  /// Start(), its factor to be exchanged at will; nothing if A was not positive definite.
   /// @throws what the other thread did.
   SparseCholesky* Finish();
 
