@@ -125,9 +125,12 @@ Eigen::Matrix3Xd PaperPipeline::Step(const StepProblem& problem, PaperTimings* t
     const ThreadStopwatch stopwatch(&timings->classification);
     NarrowPhase narrow_phase;
     narrow_phase.Begin(surfaces_, point_numbers_, PointPositions(problem.x_W));
-    contacts = narrow_phase.Select(PointPositions(x_free_W), [](const NodeContact& contact) {
-      return contact.gap < kAlarmDistance;
-    });
+    const Eigen::Matrix3Xd points_free_W = PointPositions(x_free_W);
+    for (int pair = 0; pair < narrow_phase.num_pairs(); ++pair) {
+      const NodeContact contact = narrow_phase.Ahead(pair, points_free_W);
+      const double nearest = std::min(narrow_phase.seen(pair).distance, contact.gap);
+      if (nearest < kAlarmDistance) contacts.push_back(contact);
+    }
     classification_ =
         Classify(cavity_, NearestDistances(surfaces_, cavity_.nodes, x_free_W), kOpenGap);
   }

@@ -40,7 +40,9 @@ struct PaperTimings {
  parts, so that only the method differs from Simulator::Step():
 
  1) free motion by one iteration of preconditioned conjugate gradients,
- 2) every surface point that the free motion brings nearer than .5 mm is a constraint; the
+ 2) every surface point that is nearer than .5 mm when the step begins, or that the free motion
+ brings there, is a constraint (under a pull the free motion alone, which knows no pressure, lifts
+ the lip off the plate: without constraints the step would be cheap and end millimetres away); the
  classifier runs on the gaps of the free motion, 3) H_c of these and H_p of the wet points, 4) W =
  h^2 H A^-1 H^T by a solve with the factorisation for each column, the pressure's included;
  Gauss-Seidel from zero, 100 sweeps, 5) correction by one more solve.

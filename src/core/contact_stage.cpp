@@ -234,7 +234,7 @@ bool ContactStage::Refine(ContactSolution* solution) {
     held_.push_back(contact.tangent());
     held_.push_back(contact.tangent() + 1);
   }
-  const double slack = accuracy_ == Accuracy::kTrial ? 100.0 : 1.0;
+  const double slack = accuracy_ == Accuracy::kTrial ? kTrialSlack : 1.0;
   const bool converged =
       solver_->Refine(impulse_, operator_, held_, &solution->dv, &lambda_, slack);
   SetForces(lambda_);
@@ -294,6 +294,7 @@ void ContactStage::Start(ContactSolution* solution, StepTimings* timings) {
 /// @returns false if the factorisation is too old for this.
 bool ContactStage::SolveWithFactorization(ContactSolution* solution, StepTimings* timings) {
   Start(solution, timings);
+  solution->settled = false;
   for (int pass = 0; pass < kMaxPasses; ++pass) {
     if (pass > 0) {
       UpdateOperator(timings);
@@ -323,7 +324,8 @@ bool ContactStage::SolveWithFactorization(ContactSolution* solution, StepTimings
     finder_.Select(end_, missed, &selected_);
     const bool passed = std::any_of(selected_.begin(), selected_.end(),
                                     [&](const Contact& contact) { return contact.gap < -bound; });
-    if (!passed && solution->error <= bound) break;
+    solution->settled = !passed && solution->error <= bound;
+    if (solution->settled) break;
     // Forces with friction that are not found from here are hardly found from a little further.
     if (!solution->statistics.converged && !operator_.plain() && pass >= kMaxPassesAstray) break;
 

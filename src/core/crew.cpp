@@ -22,12 +22,19 @@ bool HoldsSoon(const Condition& condition) {
 }  // namespace
 
 Crew::Crew(int size) : size_(size) {
-  for (int member = 1; member < size; ++member) {
-    helpers_.emplace_back([this, member] { Help(member); });
+  try {
+    for (int member = 1; member < size; ++member) {
+      helpers_.emplace_back([this, member] { Help(member); });
+    }
+  } catch (...) {
+    Stop();
+    throw;
   }
 }
 
-Crew::~Crew() {
+Crew::~Crew() { Stop(); }
+
+void Crew::Stop() {
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     stop_ = true;

@@ -9,7 +9,7 @@
 namespace vacuum_gripper_sim {
 namespace {
 
-/// Cuts after which there are enough branches for any number of threads.
+/// After so many cuts more of them find no better share.
 constexpr int kCutsPerThread = 12;
 
 struct Tree {

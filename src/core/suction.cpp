@@ -24,10 +24,12 @@ void Suction::SetWet(const std::vector<int>& cups, const Classification& classif
   }
 }
 
+bool Suction::IsOpen(const Classification& classification, int cup) const {
+  return classification.bottleneck_gaps[static_cast<std::size_t>(cup)] > *seal_.open_gap;
+}
+
 bool Suction::ReleaseOpen(const Classification& classification, std::vector<int>* cups) {
-  const auto is_open = [&](int cup) {
-    return classification.bottleneck_gaps[static_cast<std::size_t>(cup)] > *seal_.open_gap;
-  };
+  const auto is_open = [&](int cup) { return IsOpen(classification, cup); };
   for (const int cup : *cups) {
     if (is_open(cup)) pressures_[static_cast<std::size_t>(cup)] = 0.0;
   }
@@ -77,7 +79,7 @@ bool Suction::TryToSeal(ContactStage* stage, GripState* state, SuctionSolution* 
     trying_.push_back(static_cast<int>(cup));
   }
   SetWet(trying_, solution->classification);
-  bool settled = false;  // Has the last increment been solved with the final classification?
+  bool settled = false;  // Has the last increment been solved, with the final classification?
   for (int i = 1; i <= seal_.ramp_increments && !trying_.empty(); ++i) {  // (2)
     const bool is_last = i == seal_.ramp_increments;
     for (const int cup : trying_) {
@@ -85,15 +87,17 @@ bool Suction::TryToSeal(ContactStage* stage, GripState* state, SuctionSolution* 
       pressures_[k] = is_last ? of_new_seals_[k] : of_new_seals_[k] * i / seal_.ramp_increments;
     }
     loaded_ = wet_;
-    if (!SolveOnce(is_last ? Accuracy::kFull : Accuracy::kTrial, stage, solution, timings)) {
-      return false;
-    }
+    if (!is_last && !SolveOnce(Accuracy::kTrial, stage, solution, timings)) return false;
+    const bool look_closely = is_last || std::any_of(trying_.begin(), trying_.end(), [&](int cup) {
+                                return IsOpen(solution->classification, cup);
+                              });
+    if (look_closely && !SolveOnce(Accuracy::kFull, stage, solution, timings)) return false;
     SetWet(trying_, solution->classification);
     const bool some_opened = ReleaseOpen(solution->classification, &trying_);
     if (some_opened && trying_.empty()) {  // suction opens them: no seal yet
       return SolveOnce(Accuracy::kFull, stage, solution, timings);
     }
-    settled = !some_opened && wet_ == loaded_;
+    settled = !some_opened && wet_ == loaded_ && solution->contact.settled;
   }
   if (trying_.empty()) return true;
   if (!settled) {

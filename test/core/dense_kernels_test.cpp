@@ -78,11 +78,17 @@ TYPED_TEST(DenseKernels, SolvesOnTheRight) {
   for (const Index columns : kColumns) {
     const Matrix L = TestFixture::PositiveDefinite(columns).llt().matrixL();
     for (const Index rows : {1, 2, 7, 8, 100}) {
-      const Matrix X = Matrix::Random(rows, columns);
+      // Between rows that belong to others.
+      const Index padding = 3;
+      const Matrix X = Matrix::Random(padding + rows + padding, columns);
       Matrix solved = X;
-      SolveOnTheRight(rows, columns, L.data(), columns, solved.data(), rows);
-      EXPECT_LT((solved * L.transpose() - X).norm(), TestFixture::kError * X.norm())
+      SolveOnTheRight(rows, columns, L.data(), columns, solved.data() + padding, X.rows());
+      const Matrix X_own = X.middleRows(padding, rows);
+      EXPECT_LT((solved.middleRows(padding, rows) * L.transpose() - X_own).norm(),
+                TestFixture::kError * X_own.norm())
           << rows << " " << columns;
+      EXPECT_EQ(solved.topRows(padding), X.topRows(padding));
+      EXPECT_EQ(solved.bottomRows(padding), X.bottomRows(padding));
     }
   }
 }

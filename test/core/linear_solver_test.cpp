@@ -114,6 +114,15 @@ TEST(LinearSolver, ReusesAFactorisationForSomeSteps) {
   }
 }
 
+TEST(LinearSolver, HasItsThreadsShareAFactorisation) {
+  BendingBlock block;
+  block.Linearize();
+  LinearSolverParameters parameters = With(LinearSolverMethod::kDirect);
+  EXPECT_EQ(LinearSolver(parameters, block.system()).factorization().num_branches(), 1);
+  parameters.threads = 3;
+  EXPECT_GT(LinearSolver(parameters, block.system()).factorization().num_branches(), 1);
+}
+
 // Where a step needs no iterations the old factorisation is as good as a new one.
 TEST(LinearSolver, KeepsAFactorisationThatNeedsNoIterations) {
   BendingBlock block;

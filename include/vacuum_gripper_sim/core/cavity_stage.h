@@ -23,7 +23,8 @@ class CavityStage {
   void Begin(const Eigen::Matrix3Xd& x_W);
 
   /** @param pressures Gauge, one a cup. [Pa] @param wet By point: which see their cup's pressure.
-   @param stage Begun with the step's free motion. @param[out] solution @param[in,out] timings
+   @param accuracy Of the contacts. @param stage Begun with the step's free motion. @param[out]
+   solution @param[in,out] timings
    @returns false if A is not positive definite. */
   bool Solve(const std::vector<double>& pressures, const std::vector<bool>& wet,
              ContactStage::Accuracy accuracy, ContactStage* stage, SuctionSolution* solution,

@@ -35,6 +35,7 @@ struct ContactSolution {
   double max_penetration{0.0};      ///< Over all free surface nodes, >= 0. [m]
   double error{0.0};                ///< Largest penetration, gap under a loaded contact, or way
                                     ///< that a pulling one would let go. [m]
+  bool settled{false};              ///< Was nothing left to correct?
   int num_candidates{0};
   std::vector<int> contact_nodes;  ///< A node of the cup for each contact that carries load.
   McpStatistics statistics;        ///< Iterations summed, residual of the last solve.
@@ -76,12 +77,14 @@ class ContactStage {
              const Eigen::VectorXd& b, const Eigen::Matrix3Xd& dv_c,
              const Eigen::VectorXd& b_bodies, double h);
 
-  /// kTrial: an end of the step that is only looked at, found to a hundred times
-  /// LinearSolverParameters::tolerance.
+  /// How exactly motion and forces of the loaded contacts are found: kFull to
+  /// LinearSolverParameters::tolerance, kTrial to kTrialSlack times that, for an end of the step
+  /// that is on the way to another.
   enum class Accuracy { kTrial, kFull };
+  static constexpr double kTrialSlack = 100.0;
 
   /** Solves the contacts under a load; may be called several times a step.
-   @param load Force on every node, 3 by #nodes. [N]
+   @param load Force on every node, 3 by #nodes. [N] @param accuracy How exactly.
    @param[out] solution
    @param[in,out] timings Adds to free_motion, narrow_phase, delassus, solve and correction.
    @returns false if A is not positive definite. */

@@ -27,7 +27,8 @@ class Crew {
 
   int size() const { return size_; }
 
-  /// Tasks of a forest, in an order that has all children before their parent, as is done.
+  /// Tasks that begin when all their children are done. Their numbers are such that children come
+  /// before their parent.
   struct Forest {
     std::vector<int> parent;        ///< -1: none.
     std::vector<int> num_children;  ///< Of each task.
@@ -47,6 +48,7 @@ class Crew {
 
   void Call(Function function, const void* work);
   void Help(int member);
+  void Stop();
 
   int size_;
   std::mutex mutex_;  // for all that changes until next_; numbers may be looked at without it
@@ -65,6 +67,10 @@ class Crew {
 
 template <typename Task>
 void Crew::Do(int num_tasks, const Task& task) {
+  if (num_tasks <= 1) {  // nobody needs to be called for that
+    if (num_tasks == 1) task(0, 0);
+    return;
+  }
   next_ = 0;
   const auto work = [&](int member) {
     for (int i = next_++; i < num_tasks; i = next_++) task(i, member);

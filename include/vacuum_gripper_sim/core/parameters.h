@@ -42,7 +42,8 @@ struct LinearSolverParameters {
   int max_iterations{10};     ///< CG: a solve that needs more has A factorised; about what that
                               ///< costs, in iterations. >= 1
   int refactor_interval{20};  ///< Steps after which a factorisation is old, if they iterate. >= 1
-  int threads{1};  ///< That share a step's factorisation; results do not depend on it. 1 .. 16
+  int threads{1};  ///< That share a step's factorisation and W; the numbers are the same with any.
+                   ///< 1 .. 16
 };
 
 enum class ContactSolverMethod { kGaussSeidel, kActiveSet };

@@ -28,7 +28,7 @@ namespace vacuum_gripper_sim {
  in double precision all the same, with an error that |L| |L^T| and single rounding make.
 
  Factorisations and columns can be shared among the threads of a crew; the numbers are the same with
- any. Solves share working memory: one thread at a time.
+ any. Solves and columns share working memory: one call at a time.
 
  [Duff 1983] I. S. Duff, J. K. Reid, "The multifrontal solution of indefinite sparse symmetric
  linear equations", ACM TOMS 9(3). [Liu 1992] J. W. H. Liu, "The multifrontal method for sparse
@@ -42,6 +42,8 @@ class SparseCholesky {
   /// From now on without a crew.
   void WorkAlone() { crew_ = nullptr; }
   bool analyzed() const { return !supernodes_.empty(); }
+  /// Into which the work falls for the crew; 1 without.
+  int num_branches() const { return static_cast<int>(branches_.branches.size()); }
   /// A falls into this many pieces without entries between them,
   int num_pieces() const { return num_pieces_; }
   /// of which a node belongs to one.

@@ -21,11 +21,12 @@ namespace vacuum_gripper_sim {
 
  Without an earlier seal, the paper's three stages: (1) contacts without pressure; if the cavity is
  then airtight, (2) raise lambda_p in increments, reclassifying after each; (3) solve the contacts
- with the final classification, unless the last increment already had it. With an earlier seal, the
- step starts from the previous pressure and classification instead - without its pressure the lip
- would spring off within one implicit step and a tight cup would read as leaking - and is solved and
- reclassified until the wet points repeat or `max_rounds` is reached. The seal is lost only if the
- state at the *end* leaks; then the step is solved again without pressure.
+ with the final classification, unless the last increment already had it. Increments before the last
+ are solved less exactly, but none of them opens a cavity without a second look. With an earlier
+ seal, the step starts from the previous pressure and classification instead - without its pressure
+ the lip would spring off within one implicit step and a tight cup would read as leaking - and is
+ solved and reclassified until the wet points repeat or `max_rounds` is reached. The seal is lost
+ only if the state at the *end* leaks; then the step is solved again without pressure.
 
  The regulator moves lambda_p towards the set-point by at most ramp_rate * h a step. Several cups
  take these ways side by side, each with a seal of its own. */
@@ -55,6 +56,7 @@ class Suction {
                  StepTimings* timings);
   bool TryToSeal(ContactStage* stage, GripState* state, SuctionSolution* solution,
                  StepTimings* timings);
+  bool IsOpen(const Classification& classification, int cup) const;
   /// Gives up those of the cups whose cavity has come open. @returns if there were some.
   bool ReleaseOpen(const Classification& classification, std::vector<int>* cups);
   /// Lets the pressure act on what a classification found wet of some cups.
