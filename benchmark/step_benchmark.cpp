@@ -28,7 +28,7 @@ struct Bell {
 constexpr Bell kBells[] = {{"linear_700", 1000, 20},
                            {"linear_3000", 300, 5},
                            {"linear_10000", 100, 2},
-                           {"quadratic_700", 300, 3},
+                           {"quadratic_700", 300, 10},
                            {"quadratic_3000", 50, 1}};
 
 constexpr int kStepsOfCycle = 200;  // about: from one press to the next
