@@ -232,6 +232,19 @@ void NegativeProduct(Index rows, Index columns, Index depth, const Scalar* A, In
 }
 
 template <typename Scalar>
+void SubtractSquare(Index rows, Index depth, const Scalar* A, Index stride_A, Scalar* C,
+                    Index stride_C) {
+  Product<Write::kSubtract>(true, rows, (rows + 2) / 3 * 3, depth, A, stride_A, A, stride_A, C,
+                            stride_C);
+}
+
+template <typename Scalar>
+void SubtractProduct(Index rows, Index columns, Index depth, const Scalar* A, Index stride_A,
+                     const Scalar* B, Index stride_B, Scalar* C, Index stride_C) {
+  Product<Write::kSubtract>(false, rows, columns, depth, A, stride_A, B, stride_B, C, stride_C);
+}
+
+template <typename Scalar>
 bool FactorizePanel(Index rows, Index columns, Scalar* F) {
   for (Index k = 0; k < columns; k += kDepth<Scalar>) {
     const Index width = std::min(columns - k, kDepth<Scalar>);
@@ -281,6 +294,9 @@ void BackSubstituteVector(Index rows, Index columns, const Scalar* F, Scalar* x)
 template void NegativeSquare(Index, Index, const double*, Index, double*);
 template void NegativeProduct(Index, Index, Index, const double*, Index, const double*, Index,
                               double*);
+template void SubtractSquare(Index, Index, const double*, Index, double*, Index);
+template void SubtractProduct(Index, Index, Index, const double*, Index, const double*, Index,
+                              double*, Index);
 template bool FactorizePanel(Index, Index, double*);
 template void SolveOnTheRight(Index, Index, const double*, Index, double*, Index);
 template void EliminateVector(Index, Index, const double*, double*);
@@ -288,6 +304,9 @@ template void BackSubstituteVector(Index, Index, const double*, double*);
 template void NegativeSquare(Index, Index, const float*, Index, float*);
 template void NegativeProduct(Index, Index, Index, const float*, Index, const float*, Index,
                               float*);
+template void SubtractSquare(Index, Index, const float*, Index, float*, Index);
+template void SubtractProduct(Index, Index, Index, const float*, Index, const float*, Index, float*,
+                              Index);
 template bool FactorizePanel(Index, Index, float*);
 template void SolveOnTheRight(Index, Index, const float*, Index, float*, Index);
 template void EliminateVector(Index, Index, const float*, float*);

@@ -22,6 +22,19 @@ template <typename Scalar>
 void NegativeProduct(Eigen::Index rows, Eigen::Index columns, Eigen::Index depth, const Scalar* A,
                      Eigen::Index stride_A, const Scalar* B, Eigen::Index stride_B, Scalar* C);
 
+/// C -= A A^T, lower triangle. Above the diagonal C is scratch, as are the columns that make their
+/// number a multiple of 3. @param A #rows by depth; as many rows more as C's columns, zero.
+template <typename Scalar>
+void SubtractSquare(Eigen::Index rows, Eigen::Index depth, const Scalar* A, Eigen::Index stride_A,
+                    Scalar* C, Eigen::Index stride_C);
+
+/// C -= A B^T. @param A #rows by depth. @param B #columns by depth. @param C #rows by #columns;
+/// #columns a multiple of 3.
+template <typename Scalar>
+void SubtractProduct(Eigen::Index rows, Eigen::Index columns, Eigen::Index depth, const Scalar* A,
+                     Eigen::Index stride_A, const Scalar* B, Eigen::Index stride_B, Scalar* C,
+                     Eigen::Index stride_C);
+
 /// Cholesky factorisation of a panel's first columns: F = (L_11; L_21) from (A_11; A_21).
 /// @param[in,out] F #rows by #columns, no padding; #columns a multiple of 3. What is above the
 /// diagonal is scratch. @returns false if A_11 is not positive definite.

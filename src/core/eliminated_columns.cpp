@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <type_traits>
 
+#include "dense_kernels.h"
+
 namespace vacuum_gripper_sim {
 
 using Eigen::Index;
@@ -12,24 +14,26 @@ namespace {
 template <typename Numbers>
 using ScalarOf = typename std::decay_t<decltype(Numbers::values)>::value_type;
 
-/// A part of a block in double precision.
+/// Rows of a block that are multiplied at a time: their columns of both factors stay in cache.
+constexpr Index kDepth = 48;
+
+Index MultipleOf3(Index size) { return (size + 2) / 3 * 3; }
+
+/// Some of a block's rows in double precision, and zeros beside them for columns that make their
+/// number a multiple of 3, as dense kernels want it.
 template <typename Part>
 Eigen::Map<Eigen::MatrixXd> Widened(const Part& part, MatrixMemory<double>* memory) {
-  Eigen::Map<Eigen::MatrixXd> wide = memory->Shape(part.rows(), part.cols());
-  wide = part.template cast<double>();
+  Eigen::Map<Eigen::MatrixXd> wide = memory->Shape(MultipleOf3(part.rows()), part.cols());
+  wide.topRows(part.rows()) = part.template cast<double>();
+  wide.bottomRows(wide.rows() - part.rows()).setZero();
   return wide;
 }
 
-/// Calls f(first, count) on parts of a block's rows, of which Eigen's products keep their copies on
-/// the stack. @param num_columns Of the larger factor.
+/// Calls f(first, count) on parts of a block's rows.
 template <typename Function>
-void ForParts(Index num_rows, Index num_columns, const Function& f) {
-  constexpr Index kLargestCopy = EIGEN_STACK_ALLOCATION_LIMIT / sizeof(double);
-  const Index most = std::max(Index{1}, kLargestCopy / num_columns);
-  const Index num_parts = (num_rows + most - 1) / most;
-  for (Index part = 0; part < num_parts; ++part) {
-    const Index first = part * num_rows / num_parts;
-    f(first, (part + 1) * num_rows / num_parts - first);
+void ForParts(Index num_rows, const Function& f) {
+  for (Index first = 0; first < num_rows; first += kDepth) {
+    f(first, std::min(num_rows - first, kDepth));
   }
 }
 
@@ -85,30 +89,27 @@ void EliminatedColumns::AddTimes(double factor, const Eigen::Ref<const Eigen::Ve
 /// In double precision whatever Y's: contacts at one node differ by less than single rounding.
 // NOLINTNEXTLINE(performance-unnecessary-value-param): a view that is written through
 void EliminatedColumns::Gram(Eigen::Ref<Eigen::MatrixXd> gram) const {
-  Eigen::Map<Eigen::MatrixXd> sorted = sorted_.Shape(num_columns(), num_columns());
-  sorted.setZero();
+  Eigen::Map<Eigen::MatrixXd> negative = NegativeProduct(num_columns());
   std::visit(
       [&](const auto& numbers) {
         for (const Block& block : blocks_) {
           const auto values = Values(numbers.values, block);
-          auto target =
-              sorted.block(block.column, block.column, block.num_columns, block.num_columns);
-          ForParts(block.num_rows, block.num_columns, [&](Index first, Index count) {
-            target.template selfadjointView<Eigen::Lower>().rankUpdate(
-                Widened(values.middleCols(first, count), &wide_));
+          ForParts(block.num_rows, [&](Index first, Index count) {
+            const auto part = Widened(values.middleCols(first, count), &wide_);
+            SubtractSquare(block.num_columns, count, part.data(), part.rows(),
+                           &negative(block.column, block.column), negative.rows());
           });
         }
       },
       numbers_);
-  sorted.triangularView<Eigen::StrictlyUpper>() = sorted.transpose();
-  PutInGivenOrder(sorted, *this, gram);
+  negative.triangularView<Eigen::StrictlyUpper>() = negative.transpose();
+  PutInGivenOrder(negative, *this, gram);
 }
 
 void EliminatedColumns::TransposeTimes(const EliminatedColumns& other,
                                        // NOLINTNEXTLINE(performance-unnecessary-value-param)
                                        Eigen::Ref<Eigen::MatrixXd> product) const {
-  Eigen::Map<Eigen::MatrixXd> sorted = sorted_.Shape(num_columns(), other.num_columns());
-  sorted.setZero();
+  Eigen::Map<Eigen::MatrixXd> negative = NegativeProduct(other.num_columns());
   std::visit(
       [&](const auto& numbers) {
         const auto& their_numbers = std::get<std::decay_t<decltype(numbers)>>(other.numbers_);
@@ -119,27 +120,33 @@ void EliminatedColumns::TransposeTimes(const EliminatedColumns& other,
           if (theirs->row != ours.row) continue;
           const auto values = Values(numbers.values, ours);
           const auto their_values = Values(their_numbers.values, *theirs);
-          auto target =
-              sorted.block(ours.column, theirs->column, ours.num_columns, theirs->num_columns);
-          ForParts(ours.num_rows, std::max(ours.num_columns, theirs->num_columns),
-                   [&](Index first, Index count) {
-                     target.noalias() +=
-                         Widened(values.middleCols(first, count), &wide_) *
-                         Widened(their_values.middleCols(first, count), &their_wide_).transpose();
-                   });
+          ForParts(ours.num_rows, [&](Index first, Index count) {
+            const auto part = Widened(values.middleCols(first, count), &wide_);
+            const auto their_part = Widened(their_values.middleCols(first, count), &their_wide_);
+            SubtractProduct(ours.num_columns, their_part.rows(), count, part.data(), part.rows(),
+                            their_part.data(), their_part.rows(),
+                            &negative(ours.column, theirs->column), negative.rows());
+          });
         }
       },
       numbers_);
-  PutInGivenOrder(sorted, other, product);
+  PutInGivenOrder(negative, other, product);
 }
 
-void EliminatedColumns::PutInGivenOrder(const Eigen::Ref<const Eigen::MatrixXd>& sorted,
+/// Zeros, by sorted columns; more of them than `size`, as dense kernels write them three at a time.
+Eigen::Map<Eigen::MatrixXd> EliminatedColumns::NegativeProduct(Index size) const {
+  Eigen::Map<Eigen::MatrixXd> negative = sorted_.Shape(num_columns(), size + 2);
+  negative.setZero();
+  return {negative.data(), num_columns(), size};
+}
+
+void EliminatedColumns::PutInGivenOrder(const Eigen::Ref<const Eigen::MatrixXd>& negative,
                                         const EliminatedColumns& other,
                                         Eigen::Ref<Eigen::MatrixXd> product) const {
-  for (Index j = 0; j < sorted.cols(); ++j) {
+  for (Index j = 0; j < negative.cols(); ++j) {
     const int column = other.order_[static_cast<std::size_t>(j)];
-    for (Index i = 0; i < sorted.rows(); ++i) {
-      product(order_[static_cast<std::size_t>(i)], column) = sorted(i, j);
+    for (Index i = 0; i < negative.rows(); ++i) {
+      product(order_[static_cast<std::size_t>(i)], column) = -negative(i, j);
     }
   }
 }

@@ -49,6 +49,37 @@ TYPED_TEST(DenseKernels, ProductsAreThoseOfMatrices) {
   }
 }
 
+TYPED_TEST(DenseKernels, ProductsOfAnyNumberOfRowsAreSubtracted) {
+  using Matrix = typename TestFixture::Matrix;
+  for (const Index rows : {1, 2, 3, 5, 8, 13, 22, 52, 101}) {
+    for (const Index depth : {1, 3, 48}) {
+      const Index columns = (rows + 2) / 3 * 3;
+      Matrix A = Matrix::Random(columns, depth);
+      A.bottomRows(columns - rows).setZero();
+      const Matrix part = A.topRows(rows);
+      const Matrix before = Matrix::Random(rows + 2, columns);  // a part of a larger matrix
+
+      Matrix C = before;
+      SubtractSquare(rows, depth, A.data(), columns, C.data() + 1, C.rows());
+      Matrix expected = before;
+      expected.block(1, 0, rows, rows) -= part * part.transpose();
+      const double bound = TestFixture::kError * (1.0 + expected.norm());
+      const Matrix error =
+          (C - expected).block(1, 0, rows, rows).template triangularView<Eigen::Lower>();
+      EXPECT_LT(error.norm(), bound) << rows << " " << depth;
+
+      const Matrix B = Matrix::Random(15, depth);
+      C.setOnes(rows + 2, 15);
+      SubtractProduct(rows, 15, depth, A.data(), columns, B.data(), 15, C.data() + 1, C.rows());
+      expected.setOnes(rows + 2, 15);
+      expected.middleRows(1, rows) -= part * B.transpose();
+      EXPECT_LT((C - expected).norm(), bound) << rows << " " << depth;
+      EXPECT_EQ(C.topRows(1), expected.topRows(1));
+      EXPECT_EQ(C.bottomRows(1), expected.bottomRows(1));
+    }
+  }
+}
+
 TYPED_TEST(DenseKernels, APanelIsFactorisedAsTheWholeMatrix) {
   using Matrix = typename TestFixture::Matrix;
   for (const Index rows : kRows) {

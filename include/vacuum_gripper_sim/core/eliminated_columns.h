@@ -64,7 +64,8 @@ class EliminatedColumns {
     mutable MatrixMemory<Scalar> sorted, rows;  // of products
   };
   Eigen::Index MostRows() const;  // of a block
-  void PutInGivenOrder(const Eigen::Ref<const Eigen::MatrixXd>& sorted,
+  Eigen::Map<Eigen::MatrixXd> NegativeProduct(Eigen::Index size) const;
+  void PutInGivenOrder(const Eigen::Ref<const Eigen::MatrixXd>& negative,
                        const EliminatedColumns& other, Eigen::Ref<Eigen::MatrixXd> product) const;
 
   std::vector<int> order_;                                   // the sorted columns' numbers in B
