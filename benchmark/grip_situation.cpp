@@ -5,14 +5,13 @@
 namespace vacuum_gripper_sim {
 namespace {
 
-constexpr double kTimeStep = 0.01;                        // s
 constexpr double kSuction = -6000.0;                      // Pa
 constexpr double kPressedHeight = kCupLength - 1e-3;      // m
 constexpr double kPressSpeed = 0.01, kPullSpeed = 0.005;  // m/s
 constexpr double kWithinOneStep = 1.0;                    // m/s
 
-SimulatorParameters With(LinearSolverMethod method, int threads) {
-  SimulatorParameters parameters = A20(kTimeStep);
+SimulatorParameters With(LinearSolverMethod method, int threads, double time_step) {
+  SimulatorParameters parameters = A20(time_step);
   parameters.linear_solver.method = method;
   parameters.linear_solver.threads = threads;
   return parameters;
@@ -21,8 +20,10 @@ SimulatorParameters With(LinearSolverMethod method, int threads) {
 }  // namespace
 
 GripSituation::GripSituation(const std::string& bell, Situation situation,
-                             LinearSolverMethod method, int threads)
-    : situation_(situation), cycle_(LoadBell(bell), With(method, threads)) {
+                             LinearSolverMethod method, int threads, double time_step)
+    : situation_(situation),
+      h_(time_step),
+      cycle_(LoadBell(bell), With(method, threads, time_step)) {
   constexpr double kSettling = 0.2;  // s
   switch (situation) {
     case Situation::kAir:
@@ -68,25 +69,26 @@ void GripSituation::Step() {
 }
 
 void GripSituation::StepUpAndDown(double lowest, double highest) {
-  const double stride = kPullSpeed * kTimeStep;
+  const double stride = kPullSpeed * h_;
   if (cycle_.height() + stride > highest) direction_ = -1.0;
   if (cycle_.height() - stride < lowest) direction_ = 1.0;
   cycle_.Drive(cycle_.height() + direction_ * stride, kWithinOneStep, kSuction);
 }
 
 void GripSituation::StepThroughCycle() {
-  constexpr int kStepsPressed = 10, kStepsSealed = 20;
+  constexpr double kPressed = 0.1, kSealed = 0.2;  // s
   if (direction_ < 0.0) {
-    const double height = std::max(cycle_.height() - kPressSpeed * kTimeStep, kPressedHeight);
+    const double height = std::max(cycle_.height() - kPressSpeed * h_, kPressedHeight);
     if (height != cycle_.height()) return cycle_.Drive(height, kWithinOneStep, 0.0);
-    ++steps_held_;
-    if (steps_held_ > kStepsPressed + kStepsSealed) {
+    held_ += h_;
+    const bool suck = held_ > kPressed + 0.5 * h_;
+    if (held_ > kPressed + kSealed + 0.5 * h_) {
       direction_ = 1.0;
-      steps_held_ = 0;
+      held_ = 0.0;
     }
-    return cycle_.Step(steps_held_ > kStepsPressed ? kSuction : 0.0);
+    return cycle_.Step(suck ? kSuction : 0.0);
   }
-  const double height = cycle_.height() + kPullSpeed * kTimeStep;
+  const double height = cycle_.height() + kPullSpeed * h_;
   cycle_.Drive(height, kWithinOneStep, kSuction);
   if (!Holds(result())) direction_ = -1.0;
 }

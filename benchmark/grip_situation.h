@@ -26,9 +26,9 @@ inline constexpr struct {
 /// A cup of A20 brought into a situation and kept there.
 class GripSituation {
  public:
-  /// @param bell Name of one of meshes/bell_*.msh.
+  /// @param bell Name of one of meshes/bell_*.msh. @param time_step [s]
   GripSituation(const std::string& bell, Situation situation, LinearSolverMethod method,
-                int threads = 1);
+                int threads = 1, double time_step = 0.01);
 
   /// The situation's next step.
   void Step();
@@ -41,9 +41,10 @@ class GripSituation {
   void StepThroughCycle();
 
   Situation situation_;
+  double h_;
   GripCycle cycle_;
   double direction_{1.0};  // of the mount, up or down
-  int steps_held_{0};      // of a cycle, pressed
+  double held_{0.0};       // for how long a cycle has pressed [s]
 };
 
 }  // namespace vacuum_gripper_sim

@@ -1,7 +1,7 @@
 // Whole steps of the bells in the situations of a grip, by every linear solver, and the same steps
 // by the paper's own pipeline. scripts/benchmark makes tables of it; names of the cases are
 // mesh/situation/method, all times are in milliseconds. air_beside_sealed is two situations by
-// turns.
+// turns, loop_100hz every step of a cycle at its best.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -12,7 +12,9 @@
 
 #include "grip_situation.h"
 #include "paper_pipeline.h"
+#include "repeated_cycle.h"
 #include "step_statistics.h"
+#include "step_time.h"
 #include "thread_clock.h"
 #include "vacuum_gripper_sim/core/rigid_world.h"
 #include "vacuum_gripper_sim/core/stopwatch.h"
@@ -32,6 +34,16 @@ constexpr Bell kBells[] = {{"linear_700", 1000, 20},
                            {"quadratic_3000", 50, 1}};
 
 constexpr int kStepsOfCycle = 200;  // about: from one press to the next
+
+struct Loop {
+  const char* bell;
+  int rate;  // [Hz]
+};
+constexpr Loop kLoops[] = {{"linear_700", 1000},
+                           {"linear_700", 100},
+                           {"linear_3000", 100},
+                           {"linear_10000", 100},
+                           {"quadratic_700", 100}};
 
 struct Solver {
   LinearSolverMethod method;
@@ -75,22 +87,6 @@ class Phases {
  private:
   StepTimings sum_;
 };
-
-struct StepTime {
-  double cpu, wall;  // [s]
-};
-
-/// Makes a situation's next step.
-StepTime TimeStep(GripSituation* grip) {
-  StepTime time{};
-  const double begin = ThreadTime();
-  {
-    const Stopwatch stopwatch(&time.wall);
-    grip->Step();
-  }
-  time.cpu = ThreadTime() - begin;
-  return time;
-}
 
 void TimeSteps(benchmark::State& state, const char* bell, Situation situation,
                const Solver& solver) {
@@ -246,6 +242,16 @@ void RegisterAll() {
       add_paper("paper", PaperPipeline::Points::kNodesAndEdges);
       // Quadratic elements have a node on every edge: both are the same.
       if (title.find("linear") == 0) add_paper("paper_nodes", PaperPipeline::Points::kNodes);
+    }
+  }
+  for (const Loop& loop : kLoops) {
+    for (const Solver& solver : kSolvers) {
+      if (solver.method == LinearSolverMethod::kAsynchronous) continue;  // no two runs are the same
+      const std::string title =
+          std::string(loop.bell) + "/loop_" + std::to_string(loop.rate) + "hz/" + solver.name;
+      add(title, kRunsOfCycle, [=](benchmark::State& state) {
+        TimeRepeatedCycle(state, loop.bell, loop.rate, solver.method, solver.threads);
+      });
     }
   }
 }
