@@ -46,6 +46,11 @@ class Crew {
  private:
   using Function = void (*)(const void* work, int member);
 
+  /// Has all members call work(member) who come before the caller has returned from its own.
+  template <typename Work>
+  void CallOn(const Work& work) {
+    Call([](const void* w, int member) { (*static_cast<const Work*>(w))(member); }, &work);
+  }
   void Call(Function function, const void* work);
   void Help(int member);
   void Stop();
@@ -72,10 +77,9 @@ void Crew::Do(int num_tasks, const Task& task) {
     return;
   }
   next_ = 0;
-  const auto work = [&](int member) {
+  CallOn([&](int member) {
     for (int i = next_++; i < num_tasks; i = next_++) task(i, member);
-  };
-  Call([](const void* w, int member) { (*static_cast<const decltype(work)*>(w))(member); }, &work);
+  });
 }
 
 template <typename Task>
@@ -94,7 +98,11 @@ void Crew::Do(const Forest& forest, const Task& task) {
       }
     }
   };
-  Call([](const void* w, int member) { (*static_cast<const decltype(work)*>(w))(member); }, &work);
+  if (num_leaves <= 1) {  // one after the other
+    work(0);
+  } else {
+    CallOn(work);
+  }
 }
 
 /// The tasks of one of the above by a crew; or, without one, by this thread in their order.
