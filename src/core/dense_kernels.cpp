@@ -14,9 +14,6 @@ template <typename Scalar>
 constexpr int kTileRows = 2 * std::max(16, EIGEN_MAX_STATIC_ALIGN_BYTES) /
                           static_cast<int>(sizeof(Scalar));
 constexpr int kTileColumns = 6;
-/// Columns of the operands that are read again and again, a multiple of the tile's.
-template <typename Scalar>
-constexpr Index kDepth = 384 / static_cast<Index>(sizeof(Scalar));
 
 enum class Write { kAssign, kSubtract };
 
@@ -138,10 +135,10 @@ void Product(bool lower, Index rows, Index columns, Index depth, const Scalar* A
 template <typename Scalar>
 void NegativeProduct(bool lower, Index rows, Index columns, Index depth, const Scalar* A,
                      Index stride_A, const Scalar* B, Index stride_B, Scalar* C) {
-  Product<Write::kAssign>(lower, rows, columns, std::min(depth, kDepth<Scalar>), A, stride_A, B,
-                          stride_B, C, rows);
-  for (Index k = kDepth<Scalar>; k < depth; k += kDepth<Scalar>) {
-    Product<Write::kSubtract>(lower, rows, columns, std::min(depth - k, kDepth<Scalar>),
+  Product<Write::kAssign>(lower, rows, columns, std::min(depth, kKernelDepth<Scalar>), A, stride_A,
+                          B, stride_B, C, rows);
+  for (Index k = kKernelDepth<Scalar>; k < depth; k += kKernelDepth<Scalar>) {
+    Product<Write::kSubtract>(lower, rows, columns, std::min(depth - k, kKernelDepth<Scalar>),
                               A + k * stride_A, stride_A, B + k * stride_B, stride_B, C, rows);
   }
 }
@@ -246,8 +243,8 @@ void SubtractProduct(Index rows, Index columns, Index depth, const Scalar* A, In
 
 template <typename Scalar>
 bool FactorizePanel(Index rows, Index columns, Scalar* F) {
-  for (Index k = 0; k < columns; k += kDepth<Scalar>) {
-    const Index width = std::min(columns - k, kDepth<Scalar>);
+  for (Index k = 0; k < columns; k += kKernelDepth<Scalar>) {
+    const Index width = std::min(columns - k, kKernelDepth<Scalar>);
     if (!FactorizeNarrowPanel(rows - k, width, F + k * (rows + 1), rows)) return false;
     const Index next = k + width;
     const Scalar* const done = F + next + k * rows;
@@ -260,8 +257,8 @@ bool FactorizePanel(Index rows, Index columns, Scalar* F) {
 template <typename Scalar>
 void SolveOnTheRight(Index rows, Index columns, const Scalar* L, Index stride_L, Scalar* X,
                      Index stride_X) {
-  for (Index k = 0; k < columns; k += kDepth<Scalar>) {
-    const Index width = std::min(columns - k, kDepth<Scalar>);
+  for (Index k = 0; k < columns; k += kKernelDepth<Scalar>) {
+    const Index width = std::min(columns - k, kKernelDepth<Scalar>);
     SolveNarrow(rows, width, L + k * (stride_L + 1), stride_L, X + k * stride_X, stride_X);
     const Index next = k + width;
     Product<Write::kSubtract>(false, rows, columns - next, width, X + k * stride_X, stride_X,

@@ -10,6 +10,11 @@ namespace vacuum_gripper_sim {
 
  @tparam Scalar double or float. */
 
+/// Columns of the operands that are read again and again, a multiple of a tile's: so many of some
+/// hundred rows stay in the nearest caches.
+template <typename Scalar>
+constexpr Eigen::Index kKernelDepth = 384 / static_cast<Eigen::Index>(sizeof(Scalar));
+
 /// C = -A A^T, lower triangle. Above the diagonal C is scratch.
 /// @param A #rows by depth. @param C #rows square, no padding; #rows a multiple of 3.
 template <typename Scalar>

@@ -14,9 +14,6 @@ namespace {
 template <typename Numbers>
 using ScalarOf = typename std::decay_t<decltype(Numbers::values)>::value_type;
 
-/// Rows of a block that are multiplied at a time: their columns of both factors stay in cache.
-constexpr Index kDepth = 48;
-
 Index MultipleOf3(Index size) { return (size + 2) / 3 * 3; }
 
 /// Some of a block's rows in double precision, and zeros beside them for columns that make their
@@ -29,9 +26,10 @@ Eigen::Map<Eigen::MatrixXd> Widened(const Part& part, MatrixMemory<double>* memo
   return wide;
 }
 
-/// Calls f(first, count) on parts of a block's rows.
+/// Calls f(first, count) on as many of a block's rows as are multiplied at a time.
 template <typename Function>
 void ForParts(Index num_rows, const Function& f) {
+  constexpr Index kDepth = kKernelDepth<double>;
   for (Index first = 0; first < num_rows; first += kDepth) {
     f(first, std::min(num_rows - first, kDepth));
   }
