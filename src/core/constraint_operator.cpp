@@ -23,26 +23,21 @@ using Eigen::Index;
 using Eigen::VectorXd;
 
 void ConstraintOperator::Reset(const SparseCholesky& factorization, const RigidWorld& world,
-                               double h) {
-  factorization_ = &factorization;
+                               double h, std::vector<DelassusOperator>* prepared) {
   world_ = &world;
   h_ = h;
-  pieces_.resize(static_cast<std::size_t>(factorization.num_pieces()));
-  for (Piece& piece : pieces_) piece.compliance.Reset(factorization, h);
-  plain_columns_.clear();
-  columns_of_.assign(static_cast<std::size_t>(system_->num_free()), Column());
+  columns_.Reset(factorization, world);
+  pieces_.resize(columns_.num_pieces());
+  for (std::size_t p = 0; p < pieces_.size(); ++p) {
+    pieces_[p].compliance.Reset(factorization, h);
+    if (prepared != nullptr) pieces_[p].compliance.Adopt(&(*prepared)[p]);
+  }
   bodies_.clear();
   for (int body = 0; body < world.num_bodies(); ++body) {
     bodies_.push_back({world.CentreOfMass(body), world.Mass(body), world.Mass(body).inverse()});
   }
-  plain_ = true;
   rows_.clear();
   num_rows_ = 0;
-}
-
-bool ConstraintOperator::MayBePlain(const Contact& contact) const {
-  return contact.num_nodes == 1 && contact.friction == 0.0 && contact.object != RigidWorld::kNone &&
-         world_->BodyOf(contact.object) == RigidWorld::kNone;
 }
 
 Eigen::Matrix3d ConstraintOperator::Axes(const Contact& contact) {
@@ -56,45 +51,13 @@ Eigen::Matrix3d ConstraintOperator::Axes(const Contact& contact) {
 }
 
 void ConstraintOperator::SetContacts(const std::vector<Contact>& contacts) {
-  AddColumns(contacts);
-  plain_ = std::all_of(plain_columns_.begin(), plain_columns_.end(),
-                       [](const Column& column) { return column.index >= 0; });
+  columns_.Extend(contacts);
+  for (std::size_t p = 0; p < pieces_.size(); ++p) {
+    pieces_[p].compliance.SetRows(columns_.by_piece()[p]);
+  }
   SetRows(contacts);
-  if (!plain_) SetH(contacts);
+  if (!plain()) SetH(contacts);
   UpdateW();
-}
-
-void ConstraintOperator::AddColumns(const std::vector<Contact>& contacts) {
-  const auto column_at = [&](int free_row) {
-    return Column{static_cast<int>(PieceIndex(free_row)), PieceOf(free_row).next_column()};
-  };
-  for (std::size_t i = 0; i < contacts.size(); ++i) {
-    const Contact& contact = contacts[i];
-    if (i >= plain_columns_.size()) {
-      plain_columns_.emplace_back();
-      if (MayBePlain(contact)) {
-        const int row = system_->FreeRow(contact.nodes[0]);
-        plain_columns_.back() = column_at(row);
-        PieceOf(row).new_columns.push_back({row / 3, contact.normal});
-      }
-    }
-    if (IsPlain(i)) continue;
-    for (int k = 0; k < contact.num_nodes; ++k) {
-      const int node = contact.nodes[static_cast<std::size_t>(k)];
-      const int row = system_->FreeRow(node);
-      if (row < 0) continue;
-      Column& first_of_node = columns_of_[static_cast<std::size_t>(row / 3)];
-      if (first_of_node.index >= 0) continue;
-      first_of_node = column_at(row);
-      for (int axis = 0; axis < 3; ++axis) {
-        PieceOf(row).new_columns.push_back({row / 3, Eigen::Vector3d::Unit(axis)});
-      }
-    }
-  }
-  for (Piece& piece : pieces_) {
-    piece.compliance.Append(piece.new_columns);
-    piece.new_columns.clear();
-  }
 }
 
 /// Numbers the groups of W, those of pieces first, and finds that of each contact.
@@ -112,7 +75,7 @@ void ConstraintOperator::FindGroups(const std::vector<Contact>& contacts) {
     for (int k = 0; k < contacts[i].num_nodes; ++k) {
       const int row = system_->FreeRow(contacts[i].nodes[static_cast<std::size_t>(k)]);
       if (row < 0) continue;
-      const std::size_t piece = PieceIndex(row);
+      const std::size_t piece = columns_.PieceOf(row);
       if (groups_[i] == kNowhere) groups_[i] = piece;
       merge(pieces_[groups_[i]].group, pieces_[piece].group);
     }
@@ -150,25 +113,25 @@ void ConstraintOperator::SetH(const std::vector<Contact>& contacts) {
   J_.setZero(num_rows(), 6 * static_cast<Index>(bodies_.size()));
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     const Contact& contact = contacts[i];
-    const auto add = [&](Index row, const Column& column, int offset, double value) {
+    const auto add = [&](Index row, const ContactColumns::Column& column, int offset,
+                         double value) {
       Piece& piece = pieces_[static_cast<std::size_t>(column.piece)];
       piece.entries.emplace_back(static_cast<int>(row - W_.groups[piece.group].first),
                                  column.index + offset, value);
     };
     const Index first = rows_[i].normal;
     if (IsPlain(i)) {
-      add(first, plain_columns_[i], 0, 1.0);
+      add(first, columns_.Plain(i), 0, 1.0);
       continue;
     }
     const Eigen::Matrix3d axes = Axes(contact);
     for (int k = 0; k < contact.num_nodes; ++k) {
       const int row = system_->FreeRow(contact.nodes[static_cast<std::size_t>(k)]);
       if (row < 0) continue;
-      const Column& first_of_node = columns_of_[static_cast<std::size_t>(row / 3)];
       const double weight = contact.weights[static_cast<std::size_t>(k)];
       for (Index axis = 0; axis < rows_[i].size(); ++axis) {
         for (int xyz = 0; xyz < 3; ++xyz) {
-          add(first + axis, first_of_node, xyz, weight * axes(xyz, axis));
+          add(first + axis, columns_.OfNode(row), xyz, weight * axes(xyz, axis));
         }
       }
     }
@@ -210,7 +173,7 @@ void ConstraintOperator::AddBodyEntries(const Contact& contact, int object, doub
 }
 
 void ConstraintOperator::UpdateW() {
-  if (plain_) {
+  if (plain()) {
     W_.U.resize(num_rows(), 0);
     for (const Piece& piece : pieces_) W_.groups[piece.group].C = piece.compliance.W();
     return;
@@ -261,7 +224,7 @@ void ConstraintOperator::GapChanges(const SystemVector& y, VectorXd* changes) co
   for (const Piece& piece : pieces_) {
     const ContactCompliance::Group& group = W_.groups[piece.group];
     auto of_group = changes->segment(group.first, group.size());
-    if (plain_) {
+    if (plain()) {
       piece.compliance.GapChanges(y.cup, of_group);
     } else {
       auto by_column = piece.by_column.Shape(piece.H.cols());
@@ -269,7 +232,7 @@ void ConstraintOperator::GapChanges(const SystemVector& y, VectorXd* changes) co
       of_group.noalias() += piece.H * by_column;
     }
   }
-  if (!plain_) changes->noalias() += h_ * J_ * y.bodies;
+  if (!plain()) changes->noalias() += h_ * J_ * y.bodies;
 }
 
 /// Calls f(compliance, forces) for every piece, with the forces along its columns.
@@ -278,7 +241,7 @@ void ConstraintOperator::ForEachPiece(const VectorXd& lambda, const Function& f)
   for (const Piece& piece : pieces_) {
     const ContactCompliance::Group& group = W_.groups[piece.group];
     const auto of_group = lambda.segment(group.first, group.size());
-    if (plain_) {
+    if (plain()) {
       f(piece.compliance, of_group);
     } else {
       auto by_column = piece.by_column.Shape(piece.H.cols());
@@ -292,7 +255,7 @@ void ConstraintOperator::AddForces(const VectorXd& lambda, SystemVector* y) cons
   ForEachPiece(lambda, [&](const DelassusOperator& compliance, const auto& forces) {
     compliance.AddForces(forces, &y->cup);
   });
-  for (std::size_t body = 0; body < bodies_.size() && !plain_; ++body) {
+  for (std::size_t body = 0; body < bodies_.size() && !plain(); ++body) {
     y->bodies.segment<6>(6 * static_cast<Index>(body)) +=
         bodies_[body].M_inverse * ImpulseOn(body, lambda);
   }
@@ -302,7 +265,7 @@ void ConstraintOperator::AddImpulses(const VectorXd& lambda, SystemVector* b) co
   ForEachPiece(lambda, [&](const DelassusOperator& compliance, const auto& forces) {
     compliance.AddImpulses(forces, &b->cup);
   });
-  for (std::size_t body = 0; body < bodies_.size() && !plain_; ++body) {
+  for (std::size_t body = 0; body < bodies_.size() && !plain(); ++body) {
     b->bodies.segment<6>(6 * static_cast<Index>(body)) += ImpulseOn(body, lambda);
   }
 }

@@ -57,7 +57,8 @@ ContactStage::ContactStage(const TetMesh& mesh, const ImplicitEuler& system, Lin
       surface_nodes_(std::move(surface_nodes)),
       parameters_(parameters),
       finder_(mesh, surface_nodes_, AreFree(surface_nodes_, system)),
-      operator_(system) {}
+      operator_(system),
+      expected_columns_(system) {}
 
 void ContactStage::ForgetForces() {
   warm_starts_.clear();
@@ -67,6 +68,7 @@ void ContactStage::ForgetForces() {
 
 void ContactStage::ForgetWorld() {
   ForgetForces();
+  expected_.clear();
   finder_.Forget();
 }
 
@@ -92,6 +94,7 @@ void ContactStage::Begin(const RigidWorld& world, const Eigen::Matrix3Xd& x,
   none_.SetZero(b.size(), b_bodies.size());
   finder_.Begin(world, x, h);
   FindCandidates();
+  LookAhead();
 }
 
 void ContactStage::FindCandidates() {
@@ -113,11 +116,34 @@ void ContactStage::FindCandidates() {
   AddCandidates(selected_);
 }
 
+/// With the contacts that a factorisation from the second thread has brought W of, if all are seen.
 void ContactStage::StartAfresh() {
   candidates_of_ = solver_->generation();
   candidates_.clear();
   candidate_keys_.clear();
-  operator_.Reset(solver_->factorization(), *world_, h_);
+  std::vector<DelassusOperator>* const prepared = solver_->TakePrepared();
+  operator_.Reset(solver_->factorization(), *world_, h_, prepared);
+  const auto seen = [&](const Contact& contact) { return finder_.Sees(contact.key); };
+  if (prepared != nullptr && std::all_of(expected_.begin(), expected_.end(), seen)) {
+    AddCandidates(expected_);
+  }
+}
+
+/// Hands the step to the second thread, with those of its contacts that touch or come near.
+void ContactStage::LookAhead() {
+  if (!solver_->MayFactorizeAhead()) return;
+  expected_.clear();
+  for (const Candidate& candidate : candidates_) {
+    // Those of bodies turn from step to step.
+    if (world_->num_bodies() > 0) break;
+    const Contact contact = finder_.Ahead(candidate.contact.key, coasting_);
+    if (candidate.force.x() > 0.0 || contact.gap < parameters_.alarm_distance) {
+      expected_.push_back(contact);
+    }
+  }
+  expected_columns_.Reset(solver_->factorization(), *world_);
+  expected_columns_.Extend(expected_);
+  solver_->FactorizeAhead(expected_columns_.by_piece(), h_);
 }
 
 void ContactStage::FindEnd(const SystemVector& dv, TrialEnd* end) {

@@ -1,6 +1,7 @@
 #include "vacuum_gripper_sim/core/delassus_operator.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace vacuum_gripper_sim {
 
@@ -13,11 +14,32 @@ void DelassusOperator::Reset(const SparseCholesky& factorization, double h) {
   num_batches_ = 0;
 }
 
-void DelassusOperator::Append(const std::vector<NodeColumn>& H_rows) {
-  if (H_rows.empty()) return;
+void DelassusOperator::Adopt(DelassusOperator* other) {
+  if (other->h_ != h_) return;
+  H_rows_.swap(other->H_rows_);
+  batches_.swap(other->batches_);
+  std::swap(num_batches_, other->num_batches_);
+  W_.swap(other->W_);
+}
+
+void DelassusOperator::SetRows(const std::vector<NodeColumn>& H_rows) {
+  if (!ComeFirstIn(H_rows)) Reset(*factorization_, h_);
+  new_rows_.assign(H_rows.begin() + num_contacts(), H_rows.end());
+  if (!new_rows_.empty()) AppendNew();
+}
+
+bool DelassusOperator::ComeFirstIn(const std::vector<NodeColumn>& H_rows) const {
+  return H_rows_.size() <= H_rows.size() &&
+         std::equal(H_rows_.begin(), H_rows_.end(), H_rows.begin(),
+                    [](const NodeColumn& a, const NodeColumn& b) {
+                      return a.node == b.node && a.value == b.value;
+                    });
+}
+
+void DelassusOperator::AppendNew() {
   if (num_batches_ == batches_.size()) batches_.emplace_back();
   EliminatedColumns& Y_new = batches_[num_batches_];
-  factorization_->EliminateColumns(H_rows, &Y_new);
+  factorization_->EliminateColumns(new_rows_, &Y_new);
   const Index num_old = num_contacts();
   const Index num_new = Y_new.num_columns();
   if (const Index size = num_old + num_new; size > W_.rows()) {
@@ -36,7 +58,7 @@ void DelassusOperator::Append(const std::vector<NodeColumn>& H_rows) {
   Y_new.Gram(own);
   own *= h_ * h_;
   ++num_batches_;
-  H_rows_.insert(H_rows_.end(), H_rows.begin(), H_rows.end());
+  H_rows_.insert(H_rows_.end(), new_rows_.begin(), new_rows_.end());
 }
 
 void DelassusOperator::GapChanges(const Eigen::VectorXd& y,

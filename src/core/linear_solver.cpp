@@ -11,8 +11,6 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-/// What taking a finished factorisation costs, in CG iterations: a new W.
-constexpr int kTakingCost = 3;
 /// Steps without a try, at most.
 constexpr int kLongestPause = 7;
 
@@ -28,9 +26,9 @@ LinearSolver::LinearSolver(const LinearSolverParameters& parameters, ImplicitEul
 }
 
 bool LinearSolver::Compute() {
-  const bool old = iterations_ > 0 && step_ - factorized_step_ + 1 >= parameters_.refactor_interval;
-  const bool due = old || WornOut(parameters_.max_iterations);
-  const bool worth_taking = old || WornOut(kTakingCost);
+  const bool has_iterated = iterations_ > 0;
+  const bool old = step_ - factorized_step_ + 1 >= parameters_.refactor_interval;
+  const bool due = (has_iterated && old) || WornOut();
   bool good = usable_ && MayTry();
   ++step_;
   iterations_since_ += iterations_;
@@ -46,7 +44,7 @@ bool LinearSolver::Compute() {
       good = good && !due;
       break;
     case LinearSolverMethod::kAsynchronous:
-      good = ExchangeWithBackground(worth_taking) && good;
+      good = TakeFromBackground(has_iterated) && good;
       break;
   }
   tried_ = good;
@@ -68,27 +66,31 @@ bool LinearSolver::MayTry() {
   return false;
 }
 
-/// Once the second thread has finished, takes the result, if that is worth it, and hands over this
-/// step's A. @returns false if it came upon an A that was not positive definite.
-bool LinearSolver::ExchangeWithBackground(bool worth_taking) {
-  using Status = BackgroundFactorization::Status;
-  bool positive_definite = true;
-  if (background_->status() == Status::kDone) {
-    SparseCholesky* const finished = background_->Finish();
-    positive_definite = finished != nullptr;
-    // A step that could not wait may have made a newer one.
-    if (positive_definite && worth_taking && background_step_ > factorized_step_) {
-      factorization_.SwapFactor(finished);
-      factorized_step_ = background_step_;
-      iterations_since_ = 0;
-      ++generation_;
-    }
-  }
-  if (background_->status() == Status::kIdle) {
-    background_->Start(system_->linearization());
-    background_step_ = step_;
-  }
-  return positive_definite;
+/// Once the second thread has finished, takes the result, if that is newer and wanted.
+/// @returns false if it came upon an A that was not positive definite.
+bool LinearSolver::TakeFromBackground(bool wanted) {
+  if (background_->status() != BackgroundFactorization::Status::kDone) return true;
+  BackgroundFactorization::Product* const finished = background_->Finish();
+  if (finished == nullptr) return false;
+  // A step that could not wait may have made a newer one.
+  if (!wanted || background_step_ <= factorized_step_) return true;
+  factorization_.SwapFactor(&finished->factorization);
+  factorized_step_ = background_step_;
+  iterations_since_ = 0;
+  prepared_ = &finished->W;
+  prepared_of_ = ++generation_;
+  return true;
+}
+
+bool LinearSolver::MayFactorizeAhead() const {
+  return background_ && background_->status() == BackgroundFactorization::Status::kIdle;
+}
+
+void LinearSolver::FactorizeAhead(const std::vector<std::vector<NodeColumn>>& columns, double h) {
+  if (!MayFactorizeAhead()) return;
+  prepared_ = nullptr;
+  background_->Start(system_->linearization(), columns, h);
+  background_step_ = step_;
 }
 
 /// Will more than max_iterations be needed at the pace so far? What earlier solves of the step took
@@ -102,9 +104,9 @@ bool LinearSolver::Hopeless(int iterations, double start, double now, double bou
 
 /// Did the last step take more iterations than the average step since the factorisation, another
 /// one and its cost, in iterations, included?
-bool LinearSolver::WornOut(int cost) const {
+bool LinearSolver::WornOut() const {
   const std::int64_t num_steps = step_ - factorized_step_ + 1;
-  return iterations_ * num_steps > cost + iterations_since_ + iterations_;
+  return iterations_ * num_steps > parameters_.max_iterations + iterations_since_ + iterations_;
 }
 
 bool LinearSolver::Renew() {

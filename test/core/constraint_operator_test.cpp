@@ -4,6 +4,7 @@
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
+#include <cmath>
 #include <vector>
 
 #include "support/block_mesh.h"
@@ -155,6 +156,23 @@ class ConstraintOperatorTest : public testing::Test {
     });
   }
 
+  /// W as of another thread, but with half of A, so that it can be told from this one's.
+  std::vector<DelassusOperator> Prepared(const std::vector<Contact>& contacts, double h) {
+    NodeMatrix half = system_.A_ff();
+    for (NodeBlock& value : half.values) value *= 0.5;
+    half_.Analyze(half);
+    EXPECT_TRUE(half_.Factorize(half));
+    ContactColumns columns(system_);
+    columns.Reset(factorization_, world_);
+    columns.Extend(contacts);
+    std::vector<DelassusOperator> prepared(columns.num_pieces());
+    for (std::size_t piece = 0; piece < prepared.size(); ++piece) {
+      prepared[piece].Reset(half_, h);
+      prepared[piece].SetRows(columns.by_piece()[piece]);
+    }
+    return prepared;
+  }
+
   const TetMesh mesh_ = RepeatMesh(
       MakeBlock(4, 3, 2, {0.02, 0.01, 0.01}, false),
       {Eigen::Isometry3d::Identity(), Eigen::Isometry3d(Eigen::Translation3d(0.0, 0.05, 0.0))});
@@ -162,6 +180,7 @@ class ConstraintOperatorTest : public testing::Test {
   ImplicitEuler system_{body_, mesh_.mount_nodes};
   const int free_nodes_of_one_ = static_cast<int>(system_.free_nodes().size()) / 2;
   SparseCholesky factorization_;
+  SparseCholesky half_;
   RigidWorld world_;
   ConstraintOperator operator_{system_};
 };
@@ -246,6 +265,64 @@ TEST_F(ConstraintOperatorTest, PlainContactsOfPiecesStandPieceByPiece) {
   ASSERT_EQ(operator_.W().groups.size(), 2U);
   EXPECT_EQ(operator_.W().groups[0].size(), 4);
   ExpectNear(WByContact(), DenseW(contacts), 1e-12);
+}
+
+TEST_F(ConstraintOperatorTest, WhatWasPreparedNeedsNoMoreWork) {
+  const std::vector<Contact> plain{
+      On({5}, kGround, {0.0, 0.3, 1.0}, 0.0),
+      On({5 + free_nodes_of_one_}, kGround, {0.1, 0.0, 1.0}, 0.0),
+      On({9}, kGround, {0.0, 0.2, 1.0}, 0.0),
+  };
+  const std::vector<Contact> with_friction{On({5}, kGround, {0.0, 0.3, 1.0}, 0.4),
+                                           On({7, 9, 11}, kGround, {0.1, 0.0, 1.0}, 0.0)};
+  for (const std::vector<Contact>& contacts : {plain, with_friction}) {
+    std::vector<DelassusOperator> prepared = Prepared(contacts, kTimeStep);
+    operator_.Reset(factorization_, world_, kTimeStep, &prepared);
+    operator_.SetContacts(contacts);
+    ExpectNear(WByContact(), 2.0 * DenseW(contacts), kClose);
+
+    // Only once.
+    operator_.Reset(factorization_, world_, kTimeStep);
+    operator_.SetContacts(contacts);
+    ExpectNear(WByContact(), DenseW(contacts), kClose);
+  }
+}
+
+// Fewer, in another order, along other normals or with another time step.
+TEST_F(ConstraintOperatorTest, WhatWasPreparedForOthersIsNotTaken) {
+  const std::vector<Contact> contacts{On({5}, kGround, {0.0, 0.3, 1.0}, 0.0),
+                                      On({7}, kGround, {0.0, 0.2, 1.0}, 0.0)};
+  std::vector<Contact> turned = contacts;
+  turned[1].normal = Vector3d::UnitZ();
+  for (const std::vector<Contact>& others :
+       {std::vector<Contact>{}, {contacts[0]}, {contacts[1], contacts[0]}, turned}) {
+    std::vector<DelassusOperator> prepared = Prepared(contacts, kTimeStep);
+    operator_.Reset(factorization_, world_, kTimeStep, &prepared);
+    operator_.SetContacts(others);
+    EXPECT_EQ(operator_.num_rows(), static_cast<Eigen::Index>(others.size()));
+    if (!others.empty()) ExpectNear(WByContact(), DenseW(others), 1e-12);
+  }
+  std::vector<DelassusOperator> prepared = Prepared(contacts, 0.5 * kTimeStep);
+  operator_.Reset(factorization_, world_, kTimeStep, &prepared);
+  operator_.SetContacts(contacts);
+  ExpectNear(WByContact(), DenseW(contacts), 1e-12);
+}
+
+// The next contacts join them, with columns of this thread's own.
+TEST_F(ConstraintOperatorTest, MoreContactsJoinWhatWasPrepared) {
+  std::vector<Contact> contacts{On({5}, kGround, {0.0, 0.3, 1.0}, 0.0),
+                                On({7}, kGround, {0.0, 0.2, 1.0}, 0.0)};
+  std::vector<DelassusOperator> prepared = Prepared(contacts, kTimeStep);
+  operator_.Reset(factorization_, world_, kTimeStep, &prepared);
+  for (const int node : {9, 9 + free_nodes_of_one_}) {
+    contacts.push_back(On({node}, kGround, {0.1, 0.0, 1.0}, 0.0));
+  }
+  operator_.SetContacts(contacts);
+  const MatrixXd W = WByContact();
+  const MatrixXd expected = DenseW(contacts);
+  ExpectNear(W.topLeftCorner(2, 2), 2.0 * expected.topLeftCorner(2, 2), 1e-12);
+  ExpectNear(W.topRightCorner(2, 2), std::sqrt(2.0) * expected.topRightCorner(2, 2), 1e-12);
+  ExpectNear(W.bottomRightCorner(2, 2), expected.bottomRightCorner(2, 2), 1e-12);
 }
 
 TEST_F(ConstraintOperatorTest, ForcesDoToGapsWhatWSays) {

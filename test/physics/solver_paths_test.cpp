@@ -180,6 +180,31 @@ TEST(SolverPaths, AsynchronousFactorisationsAgreeWithTheDirectSolver) {
   }
 }
 
+// What the second thread makes W of ahead are contacts that a step wants anyway, and no more stay.
+TEST(SolverPaths, AsynchronousFactorisationsBringNoCandidatesThatNobodyWants) {
+  const auto mean_candidates = [](LinearSolverMethod method) {
+    SimulatorParameters parameters = A20(0.01);
+    parameters.linear_solver.method = method;
+    GripCycle cycle(LoadBell("quadratic_700"), parameters);
+    cycle.Drive(kCupLength - 0.001, 0.01, 0.0, 0.2);
+    cycle.Drive(kCupLength - 0.001, 0.01, -6000.0, 0.3);
+    double sum = 0.0;
+    constexpr int kSteps = 40;
+    for (int i = 0; i < kSteps; ++i) {
+      cycle.Drive(cycle.height() + 5e-5, 0.005, -6000.0);
+      sum += cycle.result().num_candidates;
+    }
+    EXPECT_TRUE(Holds(cycle.result()));
+    return sum / kSteps;
+  };
+  const double direct = mean_candidates(LinearSolverMethod::kDirect);
+  EXPECT_GT(direct, 50.0);
+  const double asynchronous = mean_candidates(LinearSolverMethod::kAsynchronous);
+  RecordProperty("direct", std::to_string(direct));
+  RecordProperty("asynchronous", std::to_string(asynchronous));
+  EXPECT_LT(asynchronous, 1.2 * direct);
+}
+
 // Where nothing loads the cup |b| goes to zero; iterations do not run after what is left of it.
 TEST(SolverPaths, ACupAtRestInTheAirNeedsNoIterations) {
   for (const auto method :

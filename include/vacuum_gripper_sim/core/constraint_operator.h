@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "vacuum_gripper_sim/core/contact_columns.h"
 #include "vacuum_gripper_sim/core/contact_compliance.h"
 #include "vacuum_gripper_sim/core/contact_finder.h"
 #include "vacuum_gripper_sim/core/delassus_operator.h"
@@ -28,24 +29,23 @@ namespace vacuum_gripper_sim {
  bodies alone. The rows stand piece by piece, those of pieces that touch together, and then those
  of each contact between bodies.
 
- A contact of one node with a frictionless surface that does not give way needs a single column of
- A^-1 H^T, along its normal. Others take three, along the world's axes, for each of their nodes:
- their directions may then turn, and nodes be shared, without new columns.
-
  Products share working memory: one thread at a time. */
 class ConstraintOperator {
  public:
-  explicit ConstraintOperator(const ImplicitEuler& system) : system_(&system) {}
+  explicit ConstraintOperator(const ImplicitEuler& system) : system_(&system), columns_(system) {}
 
   /// Forgets all contacts; SetContacts() is to follow, be it with none. @param factorization Of A.
   /// @param world Its bodies' masses hold from now on. Both must outlive this. @param h Time step.
-  /// [s]
-  void Reset(const SparseCholesky& factorization, const RigidWorld& world, double h);
+  /// [s] @param prepared What another thread has made of that factorisation, by piece, for contacts
+  /// that are most likely the first to come; they need no more work then. Exchanged for something
+  /// else.
+  void Reset(const SparseCholesky& factorization, const RigidWorld& world, double h,
+             std::vector<DelassusOperator>* prepared = nullptr);
 
   /** Sets the rows. Columns of contacts that were there before, in the same places, stay. */
   void SetContacts(const std::vector<Contact>& contacts);
   /// Is contact `i` bound to the normal it came with, until Reset()?
-  bool IsPlain(std::size_t i) const { return plain_columns_[i].index >= 0; }
+  bool IsPlain(std::size_t i) const { return columns_.IsPlain(i); }
 
   /// Rows of each contact.
   const std::vector<ContactRows>& rows() const { return rows_; }
@@ -55,7 +55,7 @@ class ConstraintOperator {
   /// [m/N]
   const ContactCompliance& W() const { return W_; }
   /// Are all contacts single normals of nodes on what does not move?
-  bool plain() const { return plain_; }
+  bool plain() const { return columns_.all_plain(); }
 
   /// dV = M^-1 b of the bodies. @param b 6 #bodies. [N s], [N m s]
   void BodyVelocities(const Eigen::VectorXd& b, Eigen::VectorXd* dV) const;
@@ -75,29 +75,14 @@ class ConstraintOperator {
     Eigen::Matrix<double, 6, 6> M;
     Eigen::Matrix<double, 6, 6> M_inverse;
   };
-  struct Column {
-    int piece{0};
-    int index{-1};  // in its piece; -1: none
-  };
   /// What is known of a piece of A.
   struct Piece {
     DelassusOperator compliance;  // of its columns
-    std::vector<NodeColumn> new_columns;
-    std::size_t group{0};  // of W's
+    std::size_t group{0};         // of W's
     std::vector<Eigen::Triplet<double>> entries;
     Eigen::SparseMatrix<double, Eigen::RowMajor> H;  // #rows of its group by #columns
     mutable MatrixMemory<double> by_column;          // of products
-
-    int next_column() const {
-      return compliance.num_contacts() + static_cast<int>(new_columns.size());
-    }
   };
-  bool MayBePlain(const Contact& contact) const;
-  Piece& PieceOf(int free_row) { return pieces_[PieceIndex(free_row)]; }
-  std::size_t PieceIndex(int free_row) const {
-    return static_cast<std::size_t>(factorization_->PieceOf(free_row / 3));
-  }
-  void AddColumns(const std::vector<Contact>& contacts);
   void SetRows(const std::vector<Contact>& contacts);
   void FindGroups(const std::vector<Contact>& contacts);
   void SetH(const std::vector<Contact>& contacts);
@@ -109,15 +94,12 @@ class ConstraintOperator {
   RigidWorld::Vector6d ImpulseOn(std::size_t body, const Eigen::VectorXd& lambda) const;
 
   const ImplicitEuler* system_;
-  const SparseCholesky* factorization_{nullptr};
   const RigidWorld* world_{nullptr};
   double h_{0.0};
   std::vector<Body> bodies_;
   std::vector<Piece> pieces_;
-  std::vector<Column> plain_columns_;  // by contact; those without take their nodes'
-  std::vector<Column> columns_of_;     // a free node's first of three columns
+  ContactColumns columns_;
 
-  bool plain_{true};
   std::vector<ContactRows> rows_;
   std::vector<std::size_t> groups_;  // of W's, by contact
   Eigen::Index num_rows_{0};

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "vacuum_gripper_sim/core/constraint_operator.h"
+#include "vacuum_gripper_sim/core/contact_columns.h"
 #include "vacuum_gripper_sim/core/contact_finder.h"
 #include "vacuum_gripper_sim/core/friction_solver.h"
 #include "vacuum_gripper_sim/core/implicit_euler.h"
@@ -114,6 +115,7 @@ class ContactStage {
   };
   void FindCandidates();
   void StartAfresh();
+  void LookAhead();
   void FindEnd(const SystemVector& dv, TrialEnd* end);
   void AddCandidates(const std::vector<Contact>& contacts);
   bool IsCandidate(std::uint64_t key) const;
@@ -162,6 +164,8 @@ class ContactStage {
   std::vector<Candidate> candidates_;
   std::vector<std::uint64_t> candidate_keys_;  // ascending
   ConstraintOperator operator_;                // of the first candidates or of all
+  std::vector<Contact> expected_;              // when the second thread's factorisation is done
+  ContactColumns expected_columns_;
   FrictionSolver contact_solver_;
 
   /// Forces of the last step, by key: the normal one and the others in world axes, as what is

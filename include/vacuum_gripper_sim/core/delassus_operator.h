@@ -19,8 +19,12 @@ class DelassusOperator {
   /// Starts anew without contacts. @param factorization Of A [kg]; must outlive this.
   /// @param h Time step. [s]
   void Reset(const SparseCholesky& factorization, double h);
-  /// @param H_rows Gradients of the gaps of more contacts, by node of the free system. [-]
-  void Append(const std::vector<NodeColumn>& H_rows);
+  /// Becomes that of these contacts. Those it has already cost nothing if they come first; else it
+  /// starts anew. @param H_rows Gradients of their gaps, by node of the free system. [-]
+  void SetRows(const std::vector<NodeColumn>& H_rows);
+  /// Exchanges contacts with another, whose factor this one has by now; unless its time step is
+  /// another one.
+  void Adopt(DelassusOperator* other);
 
   int num_contacts() const { return static_cast<int>(H_rows_.size()); }
   /// #contacts square, symmetric. [m/N]
@@ -35,9 +39,12 @@ class DelassusOperator {
   void AddForces(const Eigen::Ref<const Eigen::VectorXd>& lambda, Eigen::VectorXd* y) const;
 
  private:
+  bool ComeFirstIn(const std::vector<NodeColumn>& H_rows) const;
+  void AppendNew();
+
   const SparseCholesky* factorization_{nullptr};
   double h_{0.0};
-  std::vector<NodeColumn> H_rows_;
+  std::vector<NodeColumn> H_rows_, new_rows_;
   std::vector<EliminatedColumns> batches_;  // Y, in the order of the contacts; the first ones count
   std::size_t num_batches_{0};
   Eigen::MatrixXd W_;  // with room for more contacts

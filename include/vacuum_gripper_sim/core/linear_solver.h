@@ -3,11 +3,14 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "vacuum_gripper_sim/core/background_factorization.h"
 #include "vacuum_gripper_sim/core/constraint_operator.h"
 #include "vacuum_gripper_sim/core/crew.h"
+#include "vacuum_gripper_sim/core/delassus_operator.h"
+#include "vacuum_gripper_sim/core/eliminated_columns.h"
 #include "vacuum_gripper_sim/core/implicit_euler.h"
 #include "vacuum_gripper_sim/core/linearized_contacts.h"
 #include "vacuum_gripper_sim/core/parameters.h"
@@ -21,10 +24,10 @@ namespace vacuum_gripper_sim {
 
  kDirect factorises every A. The others are ways of [Bernardin, Sec. III-A]: an earlier A's
  factorisation preconditions conjugate gradients, so that the answer depends on their tolerance and
- not on the factorisation's age. A new one is due when a step's iterations cost more than the
- average step since, the factorisation's own cost shared among them, and after `refactor_interval`
- steps if they iterate. kConjugateGradient makes it then and there. kAsynchronous has a second
- thread factorise one A after the other and takes over what is due; how old its factorisation is
+ not on the factorisation's age. kConjugateGradient makes a new one when a step's iterations cost
+ more than the average step since, the factorisation's own cost shared among them, and after
+ `refactor_interval` steps if they iterate. kAsynchronous has a second thread factorise one A after
+ the other, W included, and takes the newest one after every step that iterated; how old that is
  depends on the threads' speed. Where iterations do not end, the step's A is factorised at once, and
  those of the next steps too, the more of them the more often in a row that happens. */
 class LinearSolver {
@@ -43,6 +46,19 @@ class LinearSolver {
   const SparseCholesky& factorization() const { return factorization_; }
   /// Tells one factorisation from the next.
   int generation() const { return generation_; }
+  /// Hands the A of the last Compute() to the second thread, if there is one and it has nothing to
+  /// do, for a factorisation of some step to come and W of contacts. @param columns Theirs, by
+  /// piece of A, see ContactColumns. @param h Time step. [s]
+  void FactorizeAhead(const std::vector<std::vector<NodeColumn>>& columns, double h);
+  /// Would it?
+  bool MayFactorizeAhead() const;
+  /// W that came along with factorization(), by piece of A, of the contacts that were handed over
+  /// last; to be exchanged at will. Nothing if it came without, for the second time, or after the
+  /// next FactorizeAhead().
+  std::vector<DelassusOperator>* TakePrepared() {
+    return prepared_of_ == generation_ ? std::exchange(prepared_, nullptr) : nullptr;
+  }
+
   /// Does factorization() belong to the A of the last Compute(), in full precision?
   bool current() const {
     return factorized_step_ == step_ && factorization_.precision() == Precision::kDouble;
@@ -87,10 +103,10 @@ class LinearSolver {
  private:
   bool MayTry();
   bool Hopeless(int iterations, double start, double now, double bound) const;
-  bool WornOut(int cost) const;
+  bool WornOut() const;
   bool FactorizeWith(Precision precision);
   void Precondition(const ConstraintOperator& constraints, bool any_held, Eigen::VectorXd* lambda);
-  bool ExchangeWithBackground(bool worth_taking);
+  bool TakeFromBackground(bool wanted);
 
   LinearSolverParameters parameters_;
   ImplicitEuler* system_;
@@ -108,6 +124,8 @@ class LinearSolver {
   bool tried_{false};  // to do the last step with an earlier factorisation
   int pause_{0};       // steps without a try, after the last ones in vain
   int pause_left_{0};  // of these
+  std::vector<DelassusOperator>* prepared_{nullptr};
+  int prepared_of_{0};  // generation
   // Of Refine().
   SystemVector r_, p_, Ap_;  // residual, direction and its product with A
   SystemVector y_, z_;       // of r_ in the preconditioner, half way and at its end
