@@ -44,6 +44,13 @@ void Crew::Stop() {
   for (std::thread& helper : helpers_) helper.join();
 }
 
+std::vector<std::thread::native_handle_type> Crew::HelperThreads() {
+  std::vector<std::thread::native_handle_type> handles;
+  handles.reserve(helpers_.size());
+  for (std::thread& helper : helpers_) handles.push_back(helper.native_handle());
+  return handles;
+}
+
 void Crew::Call(Function function, const void* work) {
   if (helpers_.empty()) {
     function(work, 0);

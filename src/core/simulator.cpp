@@ -75,6 +75,7 @@ class Simulator::Implementation {
   void Restore(const Snapshot& snapshot);
   void Reset(const Eigen::Isometry3d& X_WM);
   void Step(const Command& command);
+  std::vector<std::thread::native_handle_type> HelperThreads() { return solver_.HelperThreads(); }
 
   // Neither moved nor copied: parts below point at each other.
   Implementation(const Implementation&) = delete;
@@ -468,6 +469,10 @@ void Simulator::Reset(const Eigen::Isometry3d& X_WM) {
     throw std::invalid_argument("the mount's pose at reset is not a finite rigid motion");
   }
   implementation_->Reset(X_WM);
+}
+
+std::vector<std::thread::native_handle_type> Simulator::HelperThreads() {
+  return implementation_->HelperThreads();
 }
 
 Snapshot Simulator::Save() const { return implementation_->Save(); }

@@ -1,11 +1,13 @@
 #include "loop_priority.h"
 
+#include <pthread.h>
 #include <sched.h>
 #include <sys/prctl.h>
 
 #include <algorithm>
 #include <cerrno>
 #include <system_error>
+#include <utility>
 
 namespace vacuum_gripper_sim {
 namespace {
@@ -13,14 +15,6 @@ namespace {
 constexpr double kLongestWithoutRest = 1.0;  // [s]
 constexpr double kLongestStep = 0.1;         // [s]; what takes longer was stopped from outside
 constexpr unsigned long kTimerSlack = 1;     // [ns]; 0 would mean the default
-
-// Threads made later must not inherit it. Only the privileged can take this flag back, so it stays
-// when the priority goes.
-int SetScheduler(int policy, int priority) {
-  sched_param parameters{};
-  parameters.sched_priority = priority;
-  return sched_setscheduler(0, policy | SCHED_RESET_ON_FORK, &parameters);
-}
 
 }  // namespace
 
@@ -49,11 +43,26 @@ bool RestWatch::IsRestless(double wait, double now) {
   return busy_ > kLongestWithoutRest;
 }
 
-LoopPriority::LoopPriority(int priority) {
+LoopPriority::LoopPriority(int priority, std::vector<std::thread::native_handle_type> helpers)
+    : helpers_(std::move(helpers)) {
   prctl(PR_SET_TIMERSLACK, kTimerSlack);
   if (priority == 0) return;
-  held_ = SetScheduler(SCHED_FIFO, priority) == 0;
-  if (!held_) refusal_ = std::generic_category().message(errno);
+  const int error = SetScheduler(SCHED_FIFO, priority);
+  held_ = error == 0;
+  if (!held_) refusal_ = std::generic_category().message(error);
+}
+
+/// @returns the error number of the first thread that was refused, or 0.
+int LoopPriority::SetScheduler(int policy, int priority) {
+  sched_param parameters{};
+  parameters.sched_priority = priority;
+  for (const auto helper : helpers_) {
+    const int error = pthread_setschedparam(helper, policy, &parameters);
+    if (error != 0) return error;
+  }
+  // Threads made later must not inherit it. Only the privileged can take this flag back, so it
+  // stays when the priority goes.
+  return sched_setscheduler(0, policy | SCHED_RESET_ON_FORK, &parameters) == 0 ? 0 : errno;
 }
 
 bool LoopPriority::OnWait(double wait, double now) {

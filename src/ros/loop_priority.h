@@ -2,6 +2,8 @@
 
 #include <optional>
 #include <string>
+#include <thread>
+#include <vector>
 
 namespace vacuum_gripper_sim {
 
@@ -20,7 +22,9 @@ class RestWatch {
   std::optional<double> last_;
 };
 
-/** The priority of a loop's thread, which is the one that makes this object.
+/** The priority of a loop's thread, which is the one that makes this object, and of helpers that it
+ waits for: one that a normal thread keeps from its core would make the loop as late as if it had no
+ priority itself.
 
  SCHED_FIFO goes before all that is scheduled normally, on the loop's core and for as long as it
  does not wait: a loop whose steps take longer than their period would keep everybody else from that
@@ -33,7 +37,8 @@ class LoopPriority {
   static constexpr int kHighest = 99;
 
   /// @param priority Of SCHED_FIFO, 1 .. kHighest; 0: scheduled as the process was started.
-  explicit LoopPriority(int priority);
+  /// @param helpers Get the same, and must outlive this.
+  explicit LoopPriority(int priority, std::vector<std::thread::native_handle_type> helpers = {});
 
   /// What the system said if it did not grant the priority; empty otherwise.
   const std::string& refusal() const { return refusal_; }
@@ -42,6 +47,9 @@ class LoopPriority {
   bool OnWait(double wait, double now);
 
  private:
+  int SetScheduler(int policy, int priority);
+
+  std::vector<std::thread::native_handle_type> helpers_;
   bool held_{false};
   std::string refusal_;
   RestWatch watch_;

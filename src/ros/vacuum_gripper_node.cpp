@@ -66,7 +66,7 @@ void VacuumGripperNode::Subscribe() {
 }
 
 void VacuumGripperNode::Run() {
-  LoopPriority priority(parameters_.realtime_priority);
+  LoopPriority priority(parameters_.realtime_priority, simulator_.HelperThreads());
   if (!priority.refusal().empty()) {
     ROS_WARN(
         "realtime_priority = %d is not granted (%s): scheduled normally. Allow it by 'rtprio' in "

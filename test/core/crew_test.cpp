@@ -1,6 +1,7 @@
 #include "vacuum_gripper_sim/core/crew.h"
 
 #include <gtest/gtest.h>
+#include <pthread.h>
 
 #include <array>
 #include <atomic>
@@ -38,17 +39,19 @@ TEST(Crew, MembersWorkAtTheSameTime) {
   std::mutex mutex;
   std::condition_variable begun;
   std::set<int> members;
-  std::set<std::thread::id> threads;
+  std::set<std::thread::native_handle_type> threads;
   crew.Do(kSize, [&](int /*task*/, int member) {
     std::unique_lock<std::mutex> lock(mutex);
     members.insert(member);
-    threads.insert(std::this_thread::get_id());
+    threads.insert(pthread_self());
     begun.notify_all();
     begun.wait(lock, [&] { return members.size() == kSize; });
   });
   EXPECT_EQ(members, (std::set<int>{0, 1, 2}));
   EXPECT_EQ(threads.size(), 3U);
-  EXPECT_EQ(threads.count(std::this_thread::get_id()), 1U);
+  std::set<std::thread::native_handle_type> known{pthread_self()};
+  for (const auto helper : crew.HelperThreads()) known.insert(helper);
+  EXPECT_EQ(threads, known);
 }
 
 /// A complete binary tree of tasks, children first; beside it a second, single one.

@@ -1,8 +1,12 @@
 #include "loop_priority.h"
 
 #include <gtest/gtest.h>
+#include <sched.h>
 #include <sys/prctl.h>
+#include <sys/syscall.h>
+#include <unistd.h>
 
+#include <future>
 #include <string>
 #include <thread>
 
@@ -93,6 +97,28 @@ TEST(LoopPriority, IsOfItsThreadAloneAndGivenUpWithoutRest) {
     EXPECT_EQ(SchedulingOfThisThread(), "normal");
     EXPECT_FALSE(IsGivenUp(&priority));  // told once
   });
+}
+
+TEST(LoopPriority, HelpersShareIt) {
+  std::promise<pid_t> begun;
+  std::promise<void> end;
+  std::thread helper([&] {
+    begun.set_value(static_cast<pid_t>(syscall(SYS_gettid)));
+    end.get_future().wait();
+  });
+  const pid_t id = begun.get_future().get();
+  OnAThread([&] {
+    LoopPriority priority(7, {helper.native_handle()});
+    if (!priority.refusal().empty()) return;  // see above
+    EXPECT_EQ(sched_getscheduler(id), SCHED_FIFO);
+    sched_param parameters{};
+    EXPECT_EQ(sched_getparam(id, &parameters), 0);
+    EXPECT_EQ(parameters.sched_priority, 7);
+    EXPECT_TRUE(IsGivenUp(&priority));
+    EXPECT_EQ(sched_getscheduler(id), SCHED_OTHER);
+  });
+  end.set_value();
+  helper.join();
 }
 
 }  // namespace

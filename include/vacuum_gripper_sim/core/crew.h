@@ -26,6 +26,8 @@ class Crew {
   Crew& operator=(const Crew&) = delete;
 
   int size() const { return size_; }
+  /// For setting how they are scheduled: whoever has work waits for a helper that has begun.
+  std::vector<std::thread::native_handle_type> HelperThreads();
 
   /// Tasks that begin when all their children are done. Their numbers are such that children come
   /// before their parent.

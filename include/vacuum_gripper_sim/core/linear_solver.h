@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <memory>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -97,6 +98,8 @@ class LinearSolver {
               const std::vector<Eigen::Index>& held, SystemVector* dv, Eigen::VectorXd* lambda,
               double slack = 1.0);
 
+  /// See Crew.
+  std::vector<std::thread::native_handle_type> HelperThreads() { return crew_.HelperThreads(); }
   int iterations() const { return iterations_; }          ///< CG, since Compute().
   int factorizations() const { return factorizations_; }  ///< On this thread, since Compute().
 

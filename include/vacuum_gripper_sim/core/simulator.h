@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <memory>
+#include <thread>
 #include <vector>
 
 #include "vacuum_gripper_sim/core/cavity_surface.h"
@@ -64,6 +65,10 @@ class Simulator {
 
   /// Rest shape at a pose, at rest, vented. Simulated time goes on; objects stay where they are.
   void Reset(const Eigen::Isometry3d& X_WM);
+
+  /// Threads that a step waits for once they have begun to help it (`linear_solver.threads`), for
+  /// setting how they are scheduled. Valid as long as this is.
+  std::vector<std::thread::native_handle_type> HelperThreads();
 
   /// The moment after the last step.
   Snapshot Save() const;

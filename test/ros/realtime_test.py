@@ -1,0 +1,42 @@
+#!/usr/bin/python3
+"""A gripper whose steps three threads share and that wants a priority: all three get it, or none."""
+
+import os
+import pathlib
+import sys
+import unittest
+import xmlrpc.client
+
+import rosgraph
+import rospy
+import rostest
+from diagnostic_msgs.msg import DiagnosticArray
+
+from gripper_client import GripperClient, wait_until
+
+
+class RealtimeTest(unittest.TestCase):
+    def test_threads_that_a_step_waits_for_share_its_priority(self):
+        gripper = GripperClient()
+        gripper.connect()
+        values = {}
+        rospy.Subscriber('/diagnostics', DiagnosticArray, lambda message: values.update(
+            (value.key, value.value) for status in message.status for value in status.values))
+        wait_until(lambda: 'scheduling' in values, 'diagnostics')
+
+        uri = rosgraph.Master('/realtime_test').lookupNode('/vacuum_gripper')
+        pid = xmlrpc.client.ServerProxy(uri).getPid('/realtime_test')[2]
+        threads = [int(task.name) for task in pathlib.Path(f'/proc/{pid}/task').iterdir()]
+        first = [os.sched_getparam(thread).sched_priority for thread in threads
+                 if os.sched_getscheduler(thread) & ~os.SCHED_RESET_ON_FORK == os.SCHED_FIFO]
+        if values['scheduling'] == 'normal':  # not allowed here, or given up
+            self.assertEqual(first, [])
+        else:
+            self.assertEqual(values['scheduling'], 'SCHED_FIFO 5')
+            self.assertEqual(first, [5, 5, 5])
+        self.assertGreater(len(threads), 3)
+
+
+if __name__ == '__main__':
+    rospy.init_node('realtime_test')
+    rostest.rosrun('vacuum_gripper_sim', 'realtime_test', 'realtime_test', sys.argv)
