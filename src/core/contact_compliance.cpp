@@ -25,11 +25,10 @@ void ContactCompliance::AddTimes(double factor, const Eigen::VectorXd& lambda,
     gaps->segment(group.first, group.size()).noalias() +=
         factor * group.C * lambda.segment(group.first, group.size());
   }
-  constexpr Index kWaysOfABody = 6;
+  constexpr int kWaysOfABody = 6;
   for (Index first = 0; first < U.cols(); first += kWaysOfABody) {
-    const auto U_body = U.middleCols(first, std::min(kWaysOfABody, U.cols() - first));
-    Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kWaysOfABody, 1> moved(U_body.cols());
-    moved.noalias() = factor * U_body.transpose() * lambda;
+    const auto U_body = U.middleCols<kWaysOfABody>(first);
+    const Eigen::Matrix<double, kWaysOfABody, 1> moved = factor * U_body.transpose() * lambda;
     gaps->noalias() += U_body * moved;
   }
 }
