@@ -14,6 +14,7 @@ LinearSolverParameters ReadLinearSolver(ParameterReader reader) {
   const std::string precision = reader.GetChoice("precision", {"double", "single"}, "single");
   p.precision = precision == "double" ? Precision::kDouble : Precision::kSingle;
   p.tolerance = reader.GetDouble("tolerance", p.tolerance);
+  p.position_tolerance = reader.GetDouble("position_tolerance", p.position_tolerance);
   p.max_iterations = reader.GetInt("max_iterations", p.max_iterations);
   p.refactor_interval = reader.GetInt("refactor_interval", p.refactor_interval);
   p.threads = reader.GetInt("threads", p.threads);

@@ -25,11 +25,8 @@ void ContactCompliance::AddTimes(double factor, const Eigen::VectorXd& lambda,
     gaps->segment(group.first, group.size()).noalias() +=
         factor * group.C * lambda.segment(group.first, group.size());
   }
-  constexpr int kWaysOfABody = 6;
-  for (Index first = 0; first < U.cols(); first += kWaysOfABody) {
-    const auto U_body = U.middleCols<kWaysOfABody>(first);
-    const Eigen::Matrix<double, kWaysOfABody, 1> moved = factor * U_body.transpose() * lambda;
-    gaps->noalias() += U_body * moved;
+  for (Index way = 0; way < U.cols(); ++way) {
+    gaps->noalias() += factor * U.col(way).dot(lambda) * U.col(way);
   }
 }
 

@@ -74,6 +74,15 @@ void Crew::Call(Function function, const void* work) {
   left_.wait(lock, all_left);
 }
 
+/// Until nothing is. Whoever does it may have to be let onto this core first.
+void Crew::WaitFor(const std::atomic<int>& missing) {
+  constexpr std::chrono::microseconds kNap(50);
+  const auto is_done = [&] { return missing == 0; };
+  if (HoldsSoon(is_done)) return;
+  for (int i = 0; i < 10 && !is_done(); ++i) std::this_thread::yield();
+  while (!is_done()) std::this_thread::sleep_for(kNap);
+}
+
 void Crew::Help(int member) {
   std::int64_t answered = 0;
   const auto is_called = [&] { return num_calls_ != answered; };

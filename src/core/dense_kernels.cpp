@@ -195,24 +195,40 @@ void SubtractColumns(Index rows, const Scalar* L_21, Index stride, const Scalar*
   });
 }
 
+/// Ones in the last lanes of a vector register.
+template <int kRows, typename Scalar>
+Column<Scalar, kRows> LastLanes(Index count) {
+  Column<Scalar, kRows> lanes;
+  for (int i = 0; i < kRows; ++i) lanes[i] = i < kRows - count ? Scalar(0) : Scalar(1);
+  return lanes;
+}
+
 /// x_1 -= L_21^T x_2 of the columns of one tile. @param rows Of L_21.
 template <int kColumns, typename Scalar>
 void SubtractProducts(Index rows, const Scalar* L_21, Index stride, const Scalar* x_2,
                       Scalar* x_1) {
   constexpr int kRows = kTileRows<Scalar> / 2;
+  if (rows < kRows) {
+    for (int j = 0; j < kColumns; ++j) {
+      for (Index row = 0; row < rows; ++row) x_1[j] -= L_21[row + j * stride] * x_2[row];
+    }
+    return;
+  }
   Column<Scalar, kRows> sums[kColumns];
   for (int j = 0; j < kColumns; ++j) sums[j].setZero();
-  Index row = 0;
-  for (; row + kRows <= rows; row += kRows) {
-    const Column<Scalar, kRows> x = Eigen::Map<const Column<Scalar, kRows>>(x_2 + row);
+  const auto add = [&](Index row, const Column<Scalar, kRows>& x) {
     for (int j = 0; j < kColumns; ++j) {
       sums[j] += Eigen::Map<const Column<Scalar, kRows>>(L_21 + row + j * stride).cwiseProduct(x);
     }
+  };
+  const auto x_at = [&](Index row) { return Eigen::Map<const Column<Scalar, kRows>>(x_2 + row); };
+  Index row = 0;
+  for (; row + kRows <= rows; row += kRows) add(row, x_at(row));
+  if (row < rows) {  // the last rows, in the last lanes of a whole register
+    const Index last = rows - kRows;
+    add(last, x_at(last).cwiseProduct(LastLanes<kRows, Scalar>(rows - row)));
   }
   for (int j = 0; j < kColumns; ++j) x_1[j] -= sums[j].sum();
-  for (; row < rows; ++row) {
-    for (int j = 0; j < kColumns; ++j) x_1[j] -= L_21[row + j * stride] * x_2[row];
-  }
 }
 
 }  // namespace

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstddef>
 
+#include "vacuum_gripper_sim/core/element_order.h"
+
 namespace vacuum_gripper_sim {
 namespace {
 
@@ -58,9 +60,10 @@ std::vector<Tetrahedron<N, Q>> MakeElements(const TetMesh& mesh,
   Eigen::Matrix<double, 4, 3> to_local;
   to_local << -1.0, -1.0, -1.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0;
 
-  std::vector<Tetrahedron<N, Q>> elements(static_cast<std::size_t>(mesh.num_elements()));
-  for (int e = 0; e < mesh.num_elements(); ++e) {
-    Tetrahedron<N, Q>& element = elements[static_cast<std::size_t>(e)];
+  std::vector<Tetrahedron<N, Q>> elements;
+  elements.reserve(static_cast<std::size_t>(mesh.num_elements()));
+  for (const int e : OrderByNeighbours(mesh)) {
+    Tetrahedron<N, Q>& element = elements.emplace_back();
     for (int a = 0; a < N; ++a) element.nodes[static_cast<std::size_t>(a)] = mesh.elements(a, e);
     const auto X = element.Gather(mesh.nodes);
     double volume = 0.0;

@@ -57,13 +57,17 @@ EliminationBranches MakeBranches(const std::vector<int>& parent, const Tree& tre
   };
   std::stable_sort(forest.leaves.begin(), forest.leaves.end(),
                    [&](int a, int b) { return cost_of(a) > cost_of(b); });
+  for (int b = static_cast<int>(result.branches.size()); b-- > 0;) {
+    if (forest.num_children[static_cast<std::size_t>(b)] > 0) forest.from_top.push_back(b);
+  }
+  forest.from_top.insert(forest.from_top.end(), forest.leaves.begin(), forest.leaves.end());
   return result;
 }
 
 EliminationBranches OneBranch(std::size_t num_fronts) {
   EliminationBranches result;
   result.branches = {{0, num_fronts}};
-  result.forest = {{-1}, {0}, {0}};
+  result.forest = {{-1}, {0}, {0}, {0}};
   return result;
 }
 

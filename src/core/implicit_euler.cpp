@@ -1,9 +1,6 @@
 #include "vacuum_gripper_sim/core/implicit_euler.h"
 
-#include <algorithm>
 #include <cmath>
-#include <iterator>
-#include <numeric>
 
 namespace vacuum_gripper_sim {
 namespace {
@@ -27,6 +24,7 @@ ImplicitEuler::ImplicitEuler(const ElasticBody& body, const std::vector<int>& cl
     : body_(&body),
       clamped_nodes_(clamped_nodes),
       free_row_(FreeRows(body.num_nodes(), clamped_nodes)),
+      loops_(body, clamped_nodes),
       matrix_(body, free_row_),
       A_ff_(matrix_.pattern()) {
   for (int node = 0; node < body.num_nodes(); ++node) {
@@ -34,65 +32,24 @@ ImplicitEuler::ImplicitEuler(const ElasticBody& body, const std::vector<int>& cl
   }
   no_dv_f_.setZero(3 * num_free());
   no_dv_c_.setZero(3, static_cast<Eigen::Index>(clamped_nodes_.size()));
-  std::visit([&](const auto& elements) { packs_ = MakePointPacks(elements); }, body.elements());
-  const auto is_clamped = [&](int node) { return FreeRow(node) < 0; };
-  std::visit(
-      [&](const auto& packs) {
-        all_packs_.resize(packs.size());
-        std::iota(all_packs_.begin(), all_packs_.end(), std::size_t{0});
-        std::copy_if(all_packs_.begin(), all_packs_.end(), std::back_inserter(clamped_packs_),
-                     [&](std::size_t p) {
-                       return std::any_of(
-                           packs[p].nodes.begin(), packs[p].nodes.end(), [&](const auto& nodes) {
-                             return std::any_of(nodes.begin(), nodes.end(), is_clamped);
-                           });
-                     });
-      },
-      packs_);
 }
 
 void ImplicitEuler::Linearize(const Eigen::Matrix3Xd& x, const Eigen::Matrix3Xd& v, double h,
-                              const RayleighDamping& damping, const Eigen::Vector3d& gravity) {
+                              const RayleighDamping& damping, const Eigen::Vector3d& gravity,
+                              Crew* crew) {
   h_ = h;
   assembled_ = false;
   linearization_.stiffness_factor = h * damping.stiffness + h * h;
   linearization_.mass_factor = 1.0 + h * damping.mass;
-  b_.setZero(3, x.cols());
-  std::visit(
-      [&](const auto& packs, const auto& law) {
-        const auto tangent_size = static_cast<std::size_t>(TangentSize(law));
-        linearization_.tangents.resize(tangent_size * packs.size());
-        Pack* tangent = linearization_.tangents.data();
-        for (const auto& pack : packs) {
-          // The elements' share of b: -(h P + (h beta + h^2) dP(v)) dN/dX, integrated.
-          PackMatrix3 impulse = Stress(law, pack.Gradient(x), tangent);
-          const PackMatrix3 change = StressChange(law, tangent, pack.Gradient(v));
-          for (std::size_t k = 0; k < impulse.size(); ++k) {
-            impulse[k] = -h * impulse[k] - linearization_.stiffness_factor * change[k];
-          }
-          pack.AddDivergence(impulse, &b_);
-          tangent += tangent_size;
-        }
-      },
-      packs_, body_->law());
+  loops_.Linearize(x, v, h, linearization_.stiffness_factor, &linearization_.tangents, &b_, crew);
   b_.noalias() += h * gravity * body_->weights().transpose();
   b_ -= v * (h * damping.mass * body_->masses()).asDiagonal();
 }
 
-void ImplicitEuler::AddStiffness(const Eigen::Matrix3Xd& dv, const std::vector<std::size_t>& chosen,
-                                 Eigen::Matrix3Xd* product) const {
-  std::visit(
-      [&](const auto& packs, const auto& law) {
-        const auto tangent_size = static_cast<std::size_t>(TangentSize(law));
-        const Pack* const tangents = linearization_.tangents.data();
-        for (const std::size_t p : chosen) {
-          PackMatrix3 impulse =
-              StressChange(law, tangents + p * tangent_size, packs[p].Gradient(dv));
-          for (Pack& entry : impulse) entry *= linearization_.stiffness_factor;
-          packs[p].AddDivergence(impulse, product);
-        }
-      },
-      packs_, body_->law());
+/// product_ += c K dv_ at the clamped nodes, or of their motion alone.
+void ImplicitEuler::AddStiffnessOfClamped() {
+  loops_.AddStiffnessOfClamped(linearization_.tangents, linearization_.stiffness_factor, dv_,
+                               &product_);
 }
 
 const NodeMatrix& ImplicitEuler::A_ff(Crew* crew) {
@@ -108,10 +65,11 @@ double ImplicitEuler::ImpulseScale() const {
   return h_ * kStandardGravity * std::sqrt(squared);
 }
 
-const Eigen::VectorXd& ImplicitEuler::Multiply(const Eigen::VectorXd& dv_f) {
+const Eigen::VectorXd& ImplicitEuler::Multiply(const Eigen::VectorXd& dv_f, Crew* crew) {
   Scatter(dv_f, no_dv_c_, &dv_);
   product_ = dv_ * (linearization_.mass_factor * body_->masses()).asDiagonal();
-  AddStiffness(dv_, all_packs_, &product_);
+  loops_.AddStiffness(linearization_.tangents, linearization_.stiffness_factor, dv_, &product_,
+                      crew);
   GatherFree(product_, &free_result_);
   return free_result_;
 }
@@ -119,7 +77,7 @@ const Eigen::VectorXd& ImplicitEuler::Multiply(const Eigen::VectorXd& dv_f) {
 const Eigen::VectorXd& ImplicitEuler::FreeRightHandSide(const Eigen::Matrix3Xd& dv_c) {
   Scatter(no_dv_f_, dv_c, &dv_);
   product_.setZero(3, dv_.cols());
-  AddStiffness(dv_, clamped_packs_, &product_);
+  AddStiffnessOfClamped();
   product_ = b_ - product_;
   GatherFree(product_, &free_result_);
   return free_result_;
@@ -129,7 +87,7 @@ const Eigen::Matrix3Xd& ImplicitEuler::ClampedReaction(const Eigen::VectorXd& dv
                                                        const Eigen::Matrix3Xd& dv_c) {
   Scatter(dv_f, dv_c, &dv_);
   product_ = dv_ * (linearization_.mass_factor * body_->masses()).asDiagonal();
-  AddStiffness(dv_, clamped_packs_, &product_);
+  AddStiffnessOfClamped();
   reaction_.resize(3, dv_c.cols());
   for (Eigen::Index i = 0; i < dv_c.cols(); ++i) {
     const int node = clamped_nodes_[static_cast<std::size_t>(i)];

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <utility>
 
 namespace vacuum_gripper_sim {
@@ -95,11 +96,12 @@ void LinearSolver::FactorizeAhead(const std::vector<std::vector<NodeColumn>>& co
 
 /// Will more than max_iterations be needed at the pace so far? What earlier solves of the step took
 /// does not count: it is spent either way.
-bool LinearSolver::Hopeless(int iterations, double start, double now, double bound) const {
+/// @param pace Residual now over that at first. @param excess How many times too much is left.
+bool LinearSolver::Hopeless(int iterations, double pace, double excess) const {
   constexpr int kTrial = 2;
   const int left = parameters_.max_iterations - iterations;
   if (iterations < kTrial) return left <= 0;
-  return now * std::pow(now / start, static_cast<double>(left) / iterations) > bound;
+  return excess * std::pow(pace, static_cast<double>(left) / iterations) > 1.0;
 }
 
 /// Did the last step take more iterations than the average step since the factorisation, another
@@ -129,7 +131,7 @@ bool LinearSolver::FactorizeWith(Precision precision) {
 }
 
 void LinearSolver::Start(const ConstraintOperator& constraints, SystemVector* dv, SystemVector* b) {
-  Ap_.cup = system_->Multiply(dv->cup);
+  Ap_.cup = system_->Multiply(dv->cup, &crew_);
   constraints.BodyImpulses(dv->bodies, &Ap_.bodies);
   const double energy = dv->dot(Ap_);
   const double multiple = energy > 0.0 ? dv->dot(*b) / energy : 0.0;
@@ -159,24 +161,33 @@ bool LinearSolver::Refine(const SystemVector& b, const ConstraintOperator& const
                           double slack) {
   const double bound =
       slack * parameters_.tolerance * std::max(b.cup.norm(), system_->ImpulseScale());
-  r_.cup = b.cup - system_->Multiply(dv->cup);
+  r_.cup = b.cup - system_->Multiply(dv->cup, &crew_);
   constraints.BodyImpulses(dv->bodies, &r_.bodies);
   r_.bodies = b.bodies - r_.bodies;
   constraints.AddImpulses(*lambda, &r_);
   if (r_.norm() <= bound) return true;
 
   if (!held_.Compute(constraints.W(), held, {})) return false;
+  const double fine = slack * parameters_.position_tolerance / system_->time_step();  // [m/s]
+  double correction = std::numeric_limits<double>::infinity();                        // [m/s]
   p_.SetZero(b.cup.size(), b.bodies.size());
   double rz = 1.0;
   const double start = r_.norm();
-  for (int i = 0; !Hopeless(i, start, r_.norm(), bound); ++i) {
+  for (int i = 0;; ++i) {
+    const double residual = r_.norm();
+    if (Hopeless(i, residual / start, std::min(residual / bound, correction / fine))) return false;
     ++iterations_;
     Precondition(constraints, !held.empty(), lambda);
     if (r_.norm() <= bound) return true;
+    correction = z_.LargestEntry();
+    if (correction <= fine) {
+      dv->Add(1.0, z_);
+      return true;
+    }
     const double rz_before = std::exchange(rz, r_.dot(z_));
     p_ *= rz / rz_before;
     p_.Add(1.0, z_);
-    Ap_.cup = system_->Multiply(p_.cup);
+    Ap_.cup = system_->Multiply(p_.cup, &crew_);
     constraints.BodyImpulses(p_.bodies, &Ap_.bodies);
     const double pAp = p_.dot(Ap_);
     if (!(pAp > 0.0)) return false;  // A is not positive definite
@@ -184,7 +195,6 @@ bool LinearSolver::Refine(const SystemVector& b, const ConstraintOperator& const
     r_.Add(-rz / pAp, Ap_);
     if (r_.norm() <= bound) return true;
   }
-  return false;
 }
 
 }  // namespace vacuum_gripper_sim

@@ -46,6 +46,7 @@ void Validate(const SimulatorParameters& p) {
 
   Require(p.linear_solver.tolerance > 0.0 && p.linear_solver.tolerance < 1.0,
           "linear_solver.tolerance", p.linear_solver.tolerance, "in (0, 1) [-]");
+  RequireNotNegative("linear_solver.position_tolerance", p.linear_solver.position_tolerance, "[m]");
   RequireAtLeastOne("linear_solver.max_iterations", p.linear_solver.max_iterations);
   RequireAtLeastOne("linear_solver.refactor_interval", p.linear_solver.refactor_interval);
   Require(p.linear_solver.threads >= 1 && p.linear_solver.threads <= 16, "linear_solver.threads",

@@ -75,7 +75,9 @@ class Simulator::Implementation {
   void Restore(const Snapshot& snapshot);
   void Reset(const Eigen::Isometry3d& X_WM);
   void Step(const Command& command);
-  std::vector<std::thread::native_handle_type> HelperThreads() { return solver_.HelperThreads(); }
+  std::vector<std::thread::native_handle_type> HelperThreads() {
+    return solver_.crew().HelperThreads();
+  }
 
   // Neither moved nor copied: parts below point at each other.
   Implementation(const Implementation&) = delete;
@@ -263,7 +265,8 @@ bool Simulator::Implementation::Advance(const Command& command) {
   FindClampedVelocityChange(command.X_WM);
   {
     const Stopwatch stopwatch(&timings->assembly);
-    system_.Linearize(state_.x_W, state_.v_W, h, parameters_.damping, parameters_.gravity);
+    system_.Linearize(state_.x_W, state_.v_W, h, parameters_.damping, parameters_.gravity,
+                      &solver_.crew());
   }
   {
     const Stopwatch stopwatch(&timings->factorization);

@@ -121,49 +121,58 @@ bool SparseCholesky::EliminateFront(const Supernode& front, const NodeMatrix& A,
 template <typename Scalar>
 void SparseCholesky::Eliminate(const Numbers<Scalar>& numbers, const VectorXd& b,
                                VectorXd* y) const {
-  auto z = numbers.solution.Shape(size_);
-  for (std::size_t k = 0; k < elimination_.node_at.size(); ++k) {
-    z.template segment<3>(3 * static_cast<Index>(k)) =
-        b.segment<3>(3 * elimination_.node_at[k]).template cast<Scalar>();
-  }
-  auto work = numbers.front_rows.Shape(largest_front_);
-  for (const Supernode& front : supernodes_) {
-    const Index rows = 3 * front.num_rows();
+  auto all_rows = numbers.rows.Shape(num_rows_);
+  y->resize(size_);
+  const auto eliminate = [&](const Supernode& front) {
     const Index own = 3 * front.width;
-    work.head(own) = z.segment(3 * front.first, own);
-    work.segment(own, rows - own).setZero();
-    EliminateVector(rows, own, numbers.factor.data() + front.offset, work.data());
-    z.segment(3 * front.first, own) = work.head(own);
-    for (int r = front.width; r < front.num_rows(); ++r) {
-      z.template segment<3>(3 * front.rows[static_cast<std::size_t>(r)]) +=
-          work.template segment<3>(3 * r);
+    auto rows = all_rows.segment(front.rows_before, 3 * front.num_rows());
+    for (int k = 0; k < front.width; ++k) {
+      const int node = elimination_.node_at[static_cast<std::size_t>(front.first + k)];
+      rows.template segment<3>(3 * k) = b.segment<3>(3 * node).template cast<Scalar>();
     }
-  }
-  *y = z.template cast<double>();
+    rows.tail(rows.size() - own).setZero();
+    for (const int c : front.children) {
+      const Supernode& child = supernodes_[static_cast<std::size_t>(c)];
+      Index from = child.rows_before + 3 * child.width;
+      for (const int place : child.in_parent) {
+        rows.template segment<3>(3 * place) += all_rows.template segment<3>(from);
+        from += 3;
+      }
+    }
+    EliminateVector(rows.size(), own, numbers.factor.data() + front.offset, rows.data());
+    y->segment(3 * front.first, own) = rows.head(own).template cast<double>();
+  };
+  Share(crew_, in_solves_.forest, [&](int branch, int /*member*/) {
+    const auto [begin, end] = in_solves_.branches[static_cast<std::size_t>(branch)];
+    for (std::size_t s = begin; s < end; ++s) eliminate(supernodes_[s]);
+  });
 }
 
 template <typename Scalar>
 void SparseCholesky::BackSubstitute(const Numbers<Scalar>& numbers, const VectorXd& y,
                                     VectorXd* x) const {
   auto z = numbers.solution.Shape(size_);
-  z = y.template cast<Scalar>();
-  auto work = numbers.front_rows.Shape(largest_front_);
-  for (auto front = supernodes_.rbegin(); front != supernodes_.rend(); ++front) {
-    const Index rows = 3 * front->num_rows();
-    const Index own = 3 * front->width;
-    work.head(own) = z.segment(3 * front->first, own);
-    for (int r = front->width; r < front->num_rows(); ++r) {
-      work.template segment<3>(3 * r) =
-          z.template segment<3>(3 * front->rows[static_cast<std::size_t>(r)]);
-    }
-    BackSubstituteVector(rows, own, numbers.factor.data() + front->offset, work.data());
-    z.segment(3 * front->first, own) = work.head(own);
-  }
+  auto all_rows = numbers.rows.Shape(num_rows_);
   x->resize(size_);
-  for (std::size_t k = 0; k < elimination_.node_at.size(); ++k) {
-    x->segment<3>(3 * elimination_.node_at[k]) =
-        z.template segment<3>(3 * static_cast<Index>(k)).template cast<double>();
-  }
+  const auto substitute = [&](const Supernode& front) {
+    const Index own = 3 * front.width;
+    auto rows = all_rows.segment(front.rows_before, 3 * front.num_rows());
+    rows.head(own) = y.segment(3 * front.first, own).template cast<Scalar>();
+    for (int r = front.width; r < front.num_rows(); ++r) {
+      rows.template segment<3>(3 * r) =
+          z.template segment<3>(3 * front.rows[static_cast<std::size_t>(r)]);
+    }
+    BackSubstituteVector(rows.size(), own, numbers.factor.data() + front.offset, rows.data());
+    z.segment(3 * front.first, own) = rows.head(own);
+    for (int k = 0; k < front.width; ++k) {
+      const int node = elimination_.node_at[static_cast<std::size_t>(front.first + k)];
+      x->segment<3>(3 * node) = rows.template segment<3>(3 * k).template cast<double>();
+    }
+  };
+  ShareDownwards(crew_, in_solves_.forest, [&](int branch, int /*member*/) {
+    const auto [begin, end] = in_solves_.branches[static_cast<std::size_t>(branch)];
+    for (std::size_t s = end; s-- > begin;) substitute(supernodes_[s]);
+  });
 }
 
 /// Sorts the columns, gives a block to every front that one reaches, and fills in B.

@@ -138,10 +138,13 @@ void SparseCholesky::LinkSupernodes() {
   }
   std::size_t offset = 0;
   largest_front_ = 0;
+  num_rows_ = 0;
   for (std::size_t s = 0; s < supernodes_.size(); ++s) {
     Supernode& supernode = supernodes_[s];
     largest_front_ = std::max<Eigen::Index>(largest_front_, 3 * supernode.num_rows());
     supernode.offset = offset;
+    supernode.rows_before = num_rows_;
+    num_rows_ += 3 * supernode.num_rows();
     offset += 9 * supernode.rows.size() * static_cast<std::size_t>(supernode.width);
     if (supernode.num_below() == 0) continue;
     supernode.parent = supernode_of_[static_cast<std::size_t>(
@@ -161,8 +164,9 @@ void SparseCholesky::LinkSupernodes() {
 
 void SparseCholesky::CutIntoBranches() {
   constexpr double kCostOfANumber = 16.0;  // to clear it and to add to it, in operations
+  constexpr double kWorthSharing = 1e+5;   // numbers of a factor, that a solve reads twice
   std::vector<int> parent;
-  std::vector<double> cost;
+  std::vector<double> cost, numbers;
   for (const Supernode& front : supernodes_) {
     const double rows = 3.0 * front.num_rows();
     const double own = 3.0 * front.width;
@@ -170,9 +174,13 @@ void SparseCholesky::CutIntoBranches() {
     // Columns of rows, rows - 1, ... numbers, each of which changes what is to its right and below.
     cost.push_back(own * (rows * rows - rows * own + own * own / 3.0) +
                    kCostOfANumber * rows * rows);
+    numbers.push_back(rows * own);
   }
-  branches_ =
-      vacuum_gripper_sim::CutIntoBranches(parent, cost, crew_ != nullptr ? crew_->size() : 1);
+  const int num_threads = crew_ != nullptr ? crew_->size() : 1;
+  branches_ = vacuum_gripper_sim::CutIntoBranches(parent, cost, num_threads);
+  const double all_numbers = std::accumulate(numbers.begin(), numbers.end(), 0.0);
+  in_solves_ = vacuum_gripper_sim::CutIntoBranches(parent, numbers,
+                                                   all_numbers > kWorthSharing ? num_threads : 1);
 }
 
 void SparseCholesky::PlaceUpdates() {

@@ -10,48 +10,14 @@ namespace {
 /// Work for that many threads; a linear cup of 700 elements gets a quarter more places by it.
 constexpr std::size_t kParts = 4;
 
-/// Elements in order of their distance from the last one of such an order from the first element,
-/// in steps from neighbour to neighbour: ranges of it have few nodes in common.
-template <typename Element>
-std::vector<std::size_t> OrderByNeighbours(const std::vector<Element>& elements, int num_nodes) {
-  std::vector<std::vector<std::size_t>> elements_of(static_cast<std::size_t>(num_nodes));
-  for (std::size_t e = 0; e < elements.size(); ++e) {
-    for (const int node : elements[e].nodes) {
-      elements_of[static_cast<std::size_t>(node)].push_back(e);
-    }
-  }
-  std::vector<std::size_t> order;
-  const auto walk_from = [&](std::size_t start) {
-    std::vector<bool> seen(elements.size(), false);
-    order.clear();
-    const auto visit = [&](std::size_t e) {
-      if (!seen[e]) order.push_back(e);
-      seen[e] = true;
-    };
-    visit(start);
-    std::size_t next_start = 0;  // of a piece that is not connected with those before
-    for (std::size_t i = 0; i < elements.size(); ++i) {
-      while (i == order.size()) visit(next_start++);
-      for (const int node : elements[order[i]].nodes) {
-        for (const std::size_t e : elements_of[static_cast<std::size_t>(node)]) visit(e);
-      }
-    }
-  };
-  if (elements.empty()) return order;
-  walk_from(0);
-  walk_from(order.back());
-  return order;
-}
-
 template <typename Element, typename Law>
 void FindTangents(std::size_t e, const Law& law, const Linearization& linearization,
                   PointTangents<Element, Law>* tangents) {
-  constexpr std::size_t kLanes = Pack::SizeAtCompileTime;
   const auto tangent_size = static_cast<std::size_t>(TangentSize(law));
   for (std::size_t q = 0; q < Element::kPoints; ++q) {
-    const std::size_t point = e * Element::kPoints + q;
-    (*tangents)[q] = TangentAt(law, linearization.tangents.data() + point / kLanes * tangent_size,
-                               static_cast<int>(point % kLanes));
+    const std::size_t point = e / kPackLanes * Element::kPoints + q;
+    (*tangents)[q] = TangentAt(law, linearization.tangents.data() + point * tangent_size,
+                               static_cast<int>(e % kPackLanes));
   }
 }
 
@@ -67,7 +33,6 @@ StepMatrix::StepMatrix(const ElasticBody& body, const std::vector<int>& free_row
 
 template <typename Element>
 void StepMatrix::FindParts(const std::vector<Element>& elements, const std::vector<int>& free_row) {
-  elements_ = OrderByNeighbours(elements, body_->num_nodes());
   std::vector<bool> has_mass(free_row.size(), false);
   for (std::size_t p = 0; p < kParts; ++p) {
     Part part;
@@ -83,8 +48,8 @@ void StepMatrix::FindParts(const std::vector<Element>& elements, const std::vect
       if (is_new) pattern_.places.push_back({row, column});
       return place->second;
     };
-    for (std::size_t i = part.elements_begin; i < part.elements_end; ++i) {
-      const auto& nodes = elements[elements_[i]].nodes;
+    for (std::size_t e = part.elements_begin; e < part.elements_end; ++e) {
+      const auto& nodes = elements[e].nodes;
       for (std::size_t a = 0; a < nodes.size(); ++a) {
         const auto node = static_cast<std::size_t>(nodes[a]);
         const int row = free_row[node];
@@ -115,12 +80,11 @@ void StepMatrix::AssemblePart(const Part& part, const Linearization& linearizati
     using Element = typename std::decay_t<decltype(elements)>::value_type;
     using Law = std::decay_t<decltype(law)>;
     PointTangents<Element, Law> tangents;
-    for (std::size_t i = part.elements_begin; i < part.elements_end; ++i) {
-      const std::size_t e = elements_[i];
+    for (std::size_t e = part.elements_begin; e < part.elements_end; ++e) {
       FindTangents<Element>(e, law, linearization, &tangents);
       const ElementStiffness<Element, Law> K(elements[e], law, tangents,
                                              linearization.stiffness_factor);
-      for (; next < blocks_end_[i]; ++next) {
+      for (; next < blocks_end_[e]; ++next) {
         const ElementBlock& block = blocks_[next];
         A->values[static_cast<std::size_t>(block.place)] += K(block.a, block.b);
       }

@@ -26,7 +26,7 @@ class Diagnostics {
   struct StepCost {
     double wall{0.0};
     double computing{0.0};   ///< CPU time of the loop's thread.
-    double publishing{0.0};  ///< Meanwhile, on a thread of its own.
+    double publishing{0.0};  ///< CPU time meanwhile, of a thread of its own.
   };
   /// @param met_deadline False if it ended after its period.
   void OnStep(const StepResult& result, const StepCost& cost, bool met_deadline);

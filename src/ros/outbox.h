@@ -3,12 +3,14 @@
 #include <semaphore.h>
 
 #include <atomic>
-#include <chrono>
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <thread>
 #include <utility>
 #include <vector>
+
+#include "thread_time.h"
 
 namespace vacuum_gripper_sim {
 
@@ -49,7 +51,7 @@ class Outbox {
     sem_post(&posted_);
   }
 
-  /// What delivering took since it was asked for last. [s]
+  /// What delivering took since it was asked for last, of a core's time. [s]
   double TakeDeliveryTime() { return 1e-9 * static_cast<double>(delivery_time_.exchange(0)); }
 
  private:
@@ -63,12 +65,11 @@ class Outbox {
     while (true) {
       Wait(&posted_);
       if (num_delivered == num_posted_ && stopping_) return;
-      const auto begin = std::chrono::steady_clock::now();
+      const double begin = ThreadTime();
       deliver_(items_[num_delivered % items_.size()]);
       ++num_delivered;
       sem_post(&room_);
-      const std::chrono::nanoseconds time = std::chrono::steady_clock::now() - begin;
-      delivery_time_ += time.count();
+      delivery_time_ += static_cast<std::int64_t>(1e9 * (ThreadTime() - begin));
     }
   }
 
@@ -76,7 +77,7 @@ class Outbox {
   std::vector<Item> items_;  // a ring
   sem_t room_{}, posted_{};
   std::atomic<std::size_t> num_posted_{0};
-  std::atomic<std::chrono::nanoseconds::rep> delivery_time_{0};  // [ns]
+  std::atomic<std::int64_t> delivery_time_{0};  // [ns]
   std::atomic<bool> stopping_{false};
   std::thread thread_;
 };

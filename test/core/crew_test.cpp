@@ -5,6 +5,7 @@
 
 #include <array>
 #include <atomic>
+#include <chrono>
 #include <condition_variable>
 #include <mutex>
 #include <numeric>
@@ -67,6 +68,7 @@ Crew::Forest BinaryTree(int num_levels) {
   forest.parent.push_back(-1);
   forest.num_children.push_back(0);
   forest.leaves.push_back(size);
+  for (int i = size; i >= 0; --i) forest.from_top.push_back(i);
   return forest;
 }
 
@@ -107,6 +109,44 @@ TEST(Crew, ParentsSeeWhatTheirChildrenWrote) {
   }
 }
 
+// Sums of paths from the root; each task reads what its parent wrote, without any lock.
+TEST(Crew, ChildrenSeeWhatTheirParentWrote) {
+  const Crew::Forest forest = BinaryTree(10);
+  for (const int size : {1, 2, 4}) {
+    Crew crew(size);
+    for (int round = 0; round < 20; ++round) {
+      std::vector<long> depth(forest.parent.size(), -1);
+      std::atomic<int> done{0};
+      crew.DoDownwards(forest, [&](int task, int /*member*/) {
+        const auto i = static_cast<std::size_t>(task);
+        const int parent = forest.parent[i];
+        depth[i] = parent < 0 ? 0 : depth[static_cast<std::size_t>(parent)] + 1;
+        ++done;
+      });
+      EXPECT_EQ(done, static_cast<int>(forest.parent.size()));
+      EXPECT_EQ(std::accumulate(depth.begin(), depth.end(), 0L), (10 - 2) * (1L << 10) + 2);
+    }
+  }
+}
+
+// A task that takes long keeps only those below it waiting, and whoever waits gets on in the end.
+TEST(Crew, WaitsForAParentThatTakesLong) {
+  const Crew::Forest forest = BinaryTree(3);
+  Crew crew(3);
+  std::atomic<bool> root_done{false};
+  std::atomic<bool> in_order{true};
+  crew.DoDownwards(forest, [&](int task, int /*member*/) {
+    const auto i = static_cast<std::size_t>(task);
+    if (i + 2 == forest.parent.size()) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+      root_done = true;
+    } else if (forest.parent[i] >= 0 && !root_done) {
+      in_order = false;
+    }
+  });
+  EXPECT_TRUE(in_order);
+}
+
 TEST(Crew, SharingWithoutACrewGoesInOrder) {
   std::vector<int> tasks;
   Share(nullptr, 4, [&](int task, int member) { tasks.push_back(task + 10 * member); });
@@ -117,6 +157,9 @@ TEST(Crew, SharingWithoutACrewGoesInOrder) {
   std::vector<int> all(forest.parent.size());
   std::iota(all.begin(), all.end(), 0);
   EXPECT_EQ(tasks, all);
+  tasks.clear();
+  ShareDownwards(nullptr, forest, [&](int task, int /*member*/) { tasks.push_back(task); });
+  EXPECT_EQ(tasks, forest.from_top);
 }
 
 }  // namespace

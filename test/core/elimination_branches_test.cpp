@@ -52,6 +52,14 @@ void ExpectConsistent(const EliminationBranches& cut, const std::vector<int>& pa
   }
   EXPECT_TRUE(std::is_permutation(leaves.begin(), leaves.end(), cut.forest.leaves.begin(),
                                   cut.forest.leaves.end()));
+  std::vector<bool> begun(cut.branches.size(), false);
+  for (const int b : cut.forest.from_top) {
+    const int above = cut.forest.parent[static_cast<std::size_t>(b)];
+    EXPECT_TRUE(above < 0 || begun[static_cast<std::size_t>(above)]) << b;
+    begun[static_cast<std::size_t>(b)] = true;
+  }
+  EXPECT_EQ(std::count(begun.begin(), begun.end(), true),
+            static_cast<std::ptrdiff_t>(cut.branches.size()));
 }
 
 TEST(EliminationBranches, OneThreadGetsEverything) {

@@ -100,6 +100,32 @@ TEST_P(ImplicitEulerTest, ElementLoopsAgreeWithMatrices) {
   }
 }
 
+// Shared among threads the element loops make the same numbers, and so does an earlier state's
+// product: on a block large enough to be shared.
+TEST_P(ImplicitEulerTest, ACrewMakesTheSameNumbers) {
+  const TetMesh mesh = MakeBlock(8, 7, 6, {0.02, 0.01, 0.01}, GetParam());
+  const ElasticBody body(mesh, {338000.0, 0.45, 1080.0});
+  Eigen::Matrix3Xd x = mesh.nodes;
+  x.row(2) += 0.3 * x.row(0);
+  const Eigen::Matrix3Xd v = Eigen::Matrix3Xd::Random(3, x.cols());
+  const Eigen::Matrix3Xd held =
+      Eigen::Matrix3Xd::Random(3, static_cast<Eigen::Index>(mesh.mount_nodes.size()));
+  ImplicitEuler alone(body, mesh.mount_nodes);
+  alone.Linearize(x, v, 0.01, {3.0, 2e-3}, kGravity);
+  const Eigen::VectorXd dv = Eigen::VectorXd::Random(3 * alone.num_free());
+  const Eigen::VectorXd product = alone.Multiply(dv);
+  const Eigen::VectorXd right = alone.FreeRightHandSide(held);
+  for (const int size : {2, 4}) {
+    Crew crew(size);
+    ImplicitEuler shared(body, mesh.mount_nodes);
+    for (int round = 0; round < 5; ++round) {
+      shared.Linearize(x, v, 0.01, {3.0, 2e-3}, kGravity, &crew);
+      EXPECT_EQ(shared.Multiply(dv, &crew), product);
+      EXPECT_EQ(shared.FreeRightHandSide(held), right);
+    }
+  }
+}
+
 // Nothing clamped, gravity alone: all momentum gained in a step is m g h, whatever the elements do.
 TEST_P(ImplicitEulerTest, FreeFallGainsMomentum) {
   ImplicitEuler system(body_, {});

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <thread>
@@ -50,6 +51,7 @@ LinearSolverParameters With(LinearSolverMethod method, int refactor_interval = 3
   parameters.method = method;
   parameters.precision = Precision::kDouble;
   parameters.tolerance = 1e-10;
+  parameters.position_tolerance = 0.0;  // the residual alone
   parameters.max_iterations = max_iterations;
   parameters.refactor_interval = refactor_interval;
   return parameters;
@@ -214,6 +216,32 @@ TEST(LinearSolver, HeldContactsKeepTheirGaps) {
     EXPECT_NEAR(lambda(held[static_cast<std::size_t>(i)]), expected(size + i),
                 1e-7 * expected.tail(3).norm());
   }
+}
+
+// A motion of 1 mm: what is left after the last correction is less than that, and the coarser the
+// tolerance the fewer iterations.
+TEST(LinearSolver, EndsWithACorrectionThatMovesNothingFar) {
+  int iterations_before = 100;
+  for (const double tolerance : {1e-11, 1e-8, 1e-5}) {
+    BendingBlock block;
+    block.Linearize();
+    LinearSolverParameters parameters = With(LinearSolverMethod::kConjugateGradient);
+    parameters.tolerance = 1e-15;  // out of reach
+    parameters.position_tolerance = tolerance;
+    LinearSolver solver(parameters, block.system());
+    ASSERT_TRUE(solver.Compute());
+    block.Bend(0.03);
+    ASSERT_TRUE(solver.Compute());
+    ASSERT_TRUE(solver.old());
+    Eigen::VectorXd expected =
+        block.Dense().ldlt().solve(Eigen::VectorXd::LinSpaced(block.size(), -1.0, 1.0));
+    expected *= 1e-3 / (kTimeStep * expected.cwiseAbs().maxCoeff());
+    const Eigen::VectorXd dv = Solve(block.Dense() * expected, block.system(), &solver);
+    EXPECT_LT(kTimeStep * (dv - expected).cwiseAbs().maxCoeff(), tolerance);
+    EXPECT_LT(solver.iterations(), iterations_before);
+    iterations_before = solver.iterations();
+  }
+  EXPECT_GE(iterations_before, 1);
 }
 
 // Too few iterations allowed: it says so, and a new factorisation makes it good.

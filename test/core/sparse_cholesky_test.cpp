@@ -169,6 +169,7 @@ TEST(SparseCholesky, ACrewMakesTheSameNumbers) {
       SparseCholesky shared;
       shared.Analyze(A, &crew);
       EXPECT_EQ(shared.num_branches() > 1, size > 1);
+      EXPECT_EQ(shared.num_branches_in_solves() > 1, size > 1);
       for (int round = 0; round < 5; ++round) {
         ASSERT_TRUE(shared.Factorize(A, precision));
         EXPECT_EQ(shared.Solve(b), alone.Solve(b));

@@ -29,21 +29,26 @@ class Crew {
   /// For setting how they are scheduled: whoever has work waits for a helper that has begun.
   std::vector<std::thread::native_handle_type> HelperThreads();
 
-  /// Tasks that begin when all their children are done. Their numbers are such that children come
-  /// before their parent.
+  /// Tasks that depend on each other. Their numbers are such that children come before their
+  /// parent.
   struct Forest {
     std::vector<int> parent;        ///< -1: none.
     std::vector<int> num_children;  ///< Of each task.
     std::vector<int> leaves;        ///< Tasks without children, in the order to begin them.
+    std::vector<int> from_top;      ///< All, parents before their children, in the order to begin
+                                    ///< them downwards.
   };
 
   /// Calls task(i, member) for 0 <= i < num_tasks, where member < size() tells the threads apart,
   /// and returns when all have returned. None may throw.
   template <typename Task>
   void Do(int num_tasks, const Task& task);
-  /// The same for the tasks of a forest.
+  /// The same for the tasks of a forest: each begins when all its children are done.
   template <typename Task>
   void Do(const Forest& forest, const Task& task);
+  /// Each begins when its parent is done.
+  template <typename Task>
+  void DoDownwards(const Forest& forest, const Task& task);
 
  private:
   using Function = void (*)(const void* work, int member);
@@ -54,6 +59,12 @@ class Crew {
     Call([](const void* w, int member) { (*static_cast<const Work*>(w))(member); }, &work);
   }
   void Call(Function function, const void* work);
+  static void WaitFor(const std::atomic<int>& missing);
+  template <typename Number>
+  void ExpectOf(const Forest& forest, const Number& number) {
+    while (missing_.size() < forest.parent.size()) missing_.emplace_back(0);
+    for (std::size_t i = 0; i < forest.parent.size(); ++i) missing_[i] = number(i);
+  }
   void Help(int member);
   void Stop();
 
@@ -67,7 +78,7 @@ class Crew {
   bool stop_{false};
 
   std::atomic<int> next_{0};              // task, or leaf, to begin
-  std::deque<std::atomic<int>> missing_;  // children to be done, by task
+  std::deque<std::atomic<int>> missing_;  // by task: children to be done; downwards, itself
 
   std::vector<std::thread> helpers_;  // last: start when all else is there
 };
@@ -87,8 +98,7 @@ void Crew::Do(int num_tasks, const Task& task) {
 template <typename Task>
 void Crew::Do(const Forest& forest, const Task& task) {
   next_ = 0;
-  while (missing_.size() < forest.parent.size()) missing_.emplace_back(0);
-  for (std::size_t i = 0; i < forest.parent.size(); ++i) missing_[i] = forest.num_children[i];
+  ExpectOf(forest, [&](std::size_t i) { return forest.num_children[i]; });
   const auto num_leaves = static_cast<int>(forest.leaves.size());
   const auto work = [&](int member) {
     for (int leaf = next_++; leaf < num_leaves; leaf = next_++) {
@@ -101,6 +111,28 @@ void Crew::Do(const Forest& forest, const Task& task) {
     }
   };
   if (num_leaves <= 1) {  // one after the other
+    work(0);
+  } else {
+    CallOn(work);
+  }
+}
+
+template <typename Task>
+void Crew::DoDownwards(const Forest& forest, const Task& task) {
+  next_ = 0;
+  ExpectOf(forest, [](std::size_t /*i*/) { return 1; });
+  const auto num_tasks = static_cast<int>(forest.from_top.size());
+  const auto work = [&](int member) {
+    for (int k = next_++; k < num_tasks; k = next_++) {
+      const int i = forest.from_top[static_cast<std::size_t>(k)];
+      // Somebody has begun it, for it comes before.
+      const int parent = forest.parent[static_cast<std::size_t>(i)];
+      if (parent >= 0) WaitFor(missing_[static_cast<std::size_t>(parent)]);
+      task(i, member);
+      missing_[static_cast<std::size_t>(i)] = 0;
+    }
+  };
+  if (num_tasks <= 1) {
     work(0);
   } else {
     CallOn(work);
@@ -123,6 +155,15 @@ void Share(Crew* crew, const Crew::Forest& forest, const Task& task) {
     crew->Do(forest, task);
   } else {
     Share(nullptr, static_cast<int>(forest.parent.size()), task);
+  }
+}
+
+template <typename Task>
+void ShareDownwards(Crew* crew, const Crew::Forest& forest, const Task& task) {
+  if (crew != nullptr) {
+    crew->DoDownwards(forest, task);
+  } else {
+    for (const int i : forest.from_top) task(i, 0);
   }
 }
 

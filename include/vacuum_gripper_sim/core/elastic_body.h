@@ -20,6 +20,7 @@ class ElasticBody {
   ElasticBody(const TetMesh& mesh, const Material& material);
 
   int num_nodes() const { return static_cast<int>(masses_.size()); }
+  /// In the order of OrderByNeighbours().
   const Elements& elements() const { return elements_; }
   const MaterialLaw& law() const { return law_; }
 

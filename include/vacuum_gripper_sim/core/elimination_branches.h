@@ -15,7 +15,8 @@ struct EliminationBranches {
     std::size_t begin{0}, end{0};
   };
   std::vector<Branch> branches;  ///< In postorder, too.
-  Crew::Forest forest;           ///< Of the branches; leaves begin with the costliest.
+  Crew::Forest forest;           ///< Of the branches; leaves begin with the costliest, and
+                                 ///< downwards they come last.
 };
 
 /** Cuts where the threads will be done first: the costliest subtree into its topmost front and what

@@ -2,13 +2,12 @@
 
 #include <Eigen/Core>
 #include <cstddef>
-#include <variant>
 #include <vector>
 
 #include "vacuum_gripper_sim/core/elastic_body.h"
+#include "vacuum_gripper_sim/core/element_loops.h"
 #include "vacuum_gripper_sim/core/node_matrix.h"
 #include "vacuum_gripper_sim/core/parameters.h"
-#include "vacuum_gripper_sim/core/point_pack.h"
 #include "vacuum_gripper_sim/core/step_matrix.h"
 
 namespace vacuum_gripper_sim {
@@ -33,9 +32,11 @@ class ImplicitEuler {
   /** Finds b and what A is made of.
    @param x,v Positions [m] and velocities [m/s], 3 by #nodes.
    @param h Time step. [s]
-   @param gravity World frame. [m/s^2] */
+   @param gravity World frame. [m/s^2]
+   @param crew Shares the work; none: the calling thread alone. */
   void Linearize(const Eigen::Matrix3Xd& x, const Eigen::Matrix3Xd& v, double h,
-                 const RayleighDamping& damping, const Eigen::Vector3d& gravity);
+                 const RayleighDamping& damping, const Eigen::Vector3d& gravity,
+                 Crew* crew = nullptr);
 
   int num_free() const { return static_cast<int>(free_nodes_.size()); }
   const std::vector<int>& free_nodes() const { return free_nodes_; }
@@ -43,6 +44,8 @@ class ImplicitEuler {
   /// First of a node's three rows in the free system, or -1 if it is clamped.
   int FreeRow(int node) const { return free_row_[static_cast<std::size_t>(node)]; }
 
+  /// Of the last Linearize(). [s]
+  double time_step() const { return h_; }
   /// What A_ff is made of, and how; for another thread.
   const Linearization& linearization() const { return linearization_; }
   const StepMatrix& matrix() const { return matrix_; }
@@ -53,8 +56,9 @@ class ImplicitEuler {
   /// and standard gravity. [kg m/s]
   double ImpulseScale() const;
   // What these return is valid until the next call of any of them.
-  /// A_ff dv_f. @param dv_f 3 #free. [m/s] @returns 3 #free. [kg m/s]
-  const Eigen::VectorXd& Multiply(const Eigen::VectorXd& dv_f);
+  /// A_ff dv_f. @param dv_f 3 #free. [m/s] @param crew Shares the work, if any.
+  /// @returns 3 #free. [kg m/s]
+  const Eigen::VectorXd& Multiply(const Eigen::VectorXd& dv_f, Crew* crew = nullptr);
   /// b_f - A_fc dv_c. @param dv_c 3 by #clamped. [m/s] @returns 3 #free. [kg m/s]
   const Eigen::VectorXd& FreeRightHandSide(const Eigen::Matrix3Xd& dv_c);
   /// r_c. @param dv_f 3 #free, @param dv_c 3 by #clamped. [m/s] @returns 3 by #clamped. [N]
@@ -71,20 +75,13 @@ class ImplicitEuler {
   Eigen::Matrix3Xd Scatter(const Eigen::VectorXd& values_f, const Eigen::Matrix3Xd& values_c) const;
 
  private:
-  template <typename Element>
-  using Packs = std::vector<PointPack<Element>>;
-
-  /// A dv, by the chosen packs and without masses. @param[in,out] product 3 by #nodes.
-  void AddStiffness(const Eigen::Matrix3Xd& dv, const std::vector<std::size_t>& chosen,
-                    Eigen::Matrix3Xd* product) const;
+  void AddStiffnessOfClamped();
 
   const ElasticBody* body_;
-  std::variant<Packs<LinearTetrahedron>, Packs<QuadraticTetrahedron>> packs_;
   std::vector<int> free_nodes_;
   std::vector<int> clamped_nodes_;
-  std::vector<int> free_row_;               // by node; -1: clamped
-  std::vector<std::size_t> all_packs_;      // 0, 1, ...
-  std::vector<std::size_t> clamped_packs_;  // with a clamped node
+  std::vector<int> free_row_;  // by node; -1: clamped
+  ElementLoops loops_;
   StepMatrix matrix_;
 
   // Of the last Linearize().

@@ -88,9 +88,11 @@ class LinearSolver {
    @param b Impulses of the cup and of the bodies. [N s] @param constraints Of factorization().
    @param held Indices of its rows. @param[in,out] dv Motion. [m/s]
    @param[in,out] lambda A force for every row. [N]
-   @param slack How many times the tolerance will do.
-   @returns false if |r| <= slack tolerance max(|b|, ImplicitEuler::ImpulseScale()) is out of reach
-   of max_iterations.
+   @param slack How many times the tolerances will do.
+   @returns false if neither |r| <= slack tolerance max(|b|, ImplicitEuler::ImpulseScale()) is in
+   reach of max_iterations, nor a last correction z by which nothing moves farther than slack
+   position_tolerance in the step. Of that z what is left is a fraction: of what the factorisation
+   errs by.
 
    [Gould 2001] N. I. M. Gould, M. E. Hribar, J. Nocedal, "On the solution of equality constrained
    quadratic programming problems arising in optimization", SIAM J. Sci. Comput. 23(4). */
@@ -98,14 +100,14 @@ class LinearSolver {
               const std::vector<Eigen::Index>& held, SystemVector* dv, Eigen::VectorXd* lambda,
               double slack = 1.0);
 
-  /// See Crew.
-  std::vector<std::thread::native_handle_type> HelperThreads() { return crew_.HelperThreads(); }
+  /// Threads that share what can be shared of a step.
+  Crew& crew() { return crew_; }
   int iterations() const { return iterations_; }          ///< CG, since Compute().
   int factorizations() const { return factorizations_; }  ///< On this thread, since Compute().
 
  private:
   bool MayTry();
-  bool Hopeless(int iterations, double start, double now, double bound) const;
+  bool Hopeless(int iterations, double pace, double excess) const;
   bool WornOut() const;
   bool FactorizeWith(Precision precision);
   void Precondition(const ConstraintOperator& constraints, bool any_held, Eigen::VectorXd* lambda);

@@ -27,8 +27,8 @@ namespace vacuum_gripper_sim {
  The factor's numbers may be in single precision, for twice the speed; what goes in and comes out is
  in double precision all the same, with an error that |L| |L^T| and single rounding make.
 
- Factorisations and columns can be shared among the threads of a crew; the numbers are the same with
- any. Solves and columns share working memory: one call at a time.
+ Factorisations, solves and columns can be shared among the threads of a crew; the numbers are the
+ same with any. Solves and columns share working memory: one call at a time.
 
  [Duff 1983] I. S. Duff, J. K. Reid, "The multifrontal solution of indefinite sparse symmetric
  linear equations", ACM TOMS 9(3). [Liu 1992] J. W. H. Liu, "The multifrontal method for sparse
@@ -42,8 +42,10 @@ class SparseCholesky {
   /// From now on without a crew.
   void WorkAlone() { crew_ = nullptr; }
   bool analyzed() const { return !supernodes_.empty(); }
-  /// Into which the work falls for the crew; 1 without.
+  /// Into which a factorisation falls for the crew; 1 without.
   int num_branches() const { return static_cast<int>(branches_.branches.size()); }
+  /// The same of a solve; 1 where it is so short that calling the crew would take longer.
+  int num_branches_in_solves() const { return static_cast<int>(in_solves_.branches.size()); }
   /// A falls into this many pieces without entries between them,
   int num_pieces() const { return num_pieces_; }
   /// of which a node belongs to one.
@@ -87,6 +89,7 @@ class SparseCholesky {
     std::size_t update_offset{0};  ///< Of the update in Numbers::updates[depth % 2].
     std::size_t offset{
         0};  ///< Of the front's panel in Numbers::factor: 3 #rows by 3 width, column-major.
+    Eigen::Index rows_before{0};                   ///< Of other fronts in Numbers::rows; scalars.
     std::size_t entries_begin{0}, entries_end{0};  ///< Of entries_: A's blocks that enter here.
 
     int num_rows() const { return static_cast<int>(rows.size()); }
@@ -106,7 +109,7 @@ class SparseCholesky {
   struct Numbers {
     std::vector<Scalar> factor;
     std::array<std::vector<Scalar>, 2> updates;
-    mutable MatrixMemory<Scalar> solution, front_rows;  // of solves: of all rows, of a front
+    mutable MatrixMemory<Scalar> solution, rows;  // of solves: of all nodes, of the fronts
     mutable std::vector<MatrixMemory<Scalar>> updates_of_columns;  // by member of the crew
 
     /// What a front leaves to its parent, 3 #below square.
@@ -148,7 +151,9 @@ class SparseCholesky {
   int num_pieces_{0};
   std::vector<Supernode> supernodes_;
   std::vector<int> supernode_of_;  // by position
-  EliminationBranches branches_;   // of supernodes, for the crew
+  EliminationBranches branches_;   // of supernodes, for the crew: where they are factorised,
+  EliminationBranches in_solves_;  // and in solves
+  Eigen::Index num_rows_{0};       // of all fronts, scalars
   std::vector<Entry> entries_;     // by supernode
   std::size_t factor_size_{0};
   std::array<std::size_t, 2> update_sizes_{};

@@ -7,14 +7,14 @@
 
 #include "vacuum_gripper_sim/core/crew.h"
 #include "vacuum_gripper_sim/core/elastic_body.h"
+#include "vacuum_gripper_sim/core/element_pack.h"
 #include "vacuum_gripper_sim/core/node_matrix.h"
-#include "vacuum_gripper_sim/core/point_pack.h"
 
 namespace vacuum_gripper_sim {
 
 /// All that A = mass_factor M + stiffness_factor K depends on at one state.
 struct Linearization {
-  std::vector<Pack> tangents;    ///< Four points after the other, element by element.
+  std::vector<Pack> tangents;    ///< Of ElementPacks one after the other, point by point.
   double stiffness_factor{0.0};  ///< [s^2]
   double mass_factor{0.0};       ///< [-]
 };
@@ -45,7 +45,7 @@ class StepMatrix {
     int node{0};
     int place{0};  ///< Of its diagonal block.
   };
-  /// Ranges of elements_, blocks_, masses_ and of A's places.
+  /// Ranges of elements, blocks_, masses_ and of A's places.
   struct Part {
     std::size_t elements_begin{0}, elements_end{0};
     std::size_t blocks_begin{0};
@@ -60,9 +60,8 @@ class StepMatrix {
   const ElasticBody* body_;
   NodeMatrix pattern_;
   std::vector<Part> parts_;
-  std::vector<std::size_t> elements_;    // part by part
-  std::vector<ElementBlock> blocks_;     // in this order
-  std::vector<std::size_t> blocks_end_;  // of elements_
+  std::vector<ElementBlock> blocks_;     // element by element
+  std::vector<std::size_t> blocks_end_;  // of each
   std::vector<Mass> masses_;
 };
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <cmath>
 
 namespace vacuum_gripper_sim {
@@ -16,6 +17,12 @@ struct SystemVector {
   }
   double dot(const SystemVector& other) const {
     return cup.dot(other.cup) + bodies.dot(other.bodies);
+  }
+  /// By size: how fast a node or a body moves along an axis, or what is 1 m from a body's centre as
+  /// it turns.
+  double LargestEntry() const {
+    const double of_cup = cup.size() > 0 ? cup.cwiseAbs().maxCoeff() : 0.0;
+    return bodies.size() > 0 ? std::max(of_cup, bodies.cwiseAbs().maxCoeff()) : of_cup;
   }
   double norm() const { return std::sqrt(dot(*this)); }
   SystemVector& operator*=(double factor) {

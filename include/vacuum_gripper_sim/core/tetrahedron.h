@@ -68,41 +68,45 @@ class ElementStiffness;
 
 /// dP = lambda (R : dF) R + mu (dF + R dF^T R) gives, with g_a = R dN_a/dX,
 ///
-///     K_ab = sum of weight (lambda g_a g_b^T + mu (g_b g_a^T + (g_a . g_b) I)).
+///     K_ab = lambda C_ab + mu C_ab^T + mu tr(C_ab) I,   C_ab = sum of weight g_a g_b^T.
+///
+/// All C_ab are one product of long columns, and C_ab^T is C_ba.
 template <typename Element>
 class ElementStiffness<Element, CorotationalLaw> {
  public:
   /// @param factor K is multiplied by it; >= 0.
   ElementStiffness(const Element& element, const CorotationalLaw& law,
-                   const PointTangents<Element, CorotationalLaw>& tangents, double factor) {
+                   const PointTangents<Element, CorotationalLaw>& tangents, double factor)
+      : lambda_(law.lame().lambda), mu_(law.lame().mu) {
+    std::array<Column, Element::kPoints> g;  // of all nodes, times the root of the weight
     for (std::size_t q = 0; q < tangents.size(); ++q) {
       NodeBlock R;
       R << std::sqrt(factor * element.weights[q]) * tangents[q].R, Eigen::RowVector3d::Zero();
-      g_[q].noalias() = R.lazyProduct(element.gradients[q].template topRows<3>());
-      lambda_g_[q] = law.lame().lambda * g_[q];
-      mu_g_[q] = law.lame().mu * g_[q];
+      Eigen::Map<typename Element::NodalVectors>(g[q].data()).noalias() =
+          R.lazyProduct(element.gradients[q].template topRows<3>());
+    }
+    for (int b = 0; b < Element::kNodes; ++b) {
+      for (int j = 0; j < 3; ++j) {
+        Column sum = g[0][4 * b + j] * g[0];
+        for (std::size_t q = 1; q < g.size(); ++q) sum += g[q][4 * b + j] * g[q];
+        C_.col(3 * b + j) = sum;
+      }
     }
   }
 
   /// Block of the nodes a and b.
   NodeBlock operator()(int a, int b) const {
-    NodeBlock K_ab = NodeBlock::Zero();
-    Eigen::Vector4d products = Eigen::Vector4d::Zero();
-    for (std::size_t q = 0; q < g_.size(); ++q) {
-      const Eigen::Vector4d g_a = g_[q].col(a);
-      const Eigen::Vector4d g_b = g_[q].col(b);
-      for (int j = 0; j < 3; ++j) {
-        K_ab.col(j) += lambda_g_[q](j, b) * g_a + mu_g_[q](j, a) * g_b;
-      }
-      products += mu_g_[q].col(a).cwiseProduct(g_b);
-    }
-    // Not by its entries: numbers just written one by one are slow to read as vectors.
-    return K_ab + products.sum() * identity_;
+    const auto C_ab = C_.template block<4, 3>(4 * a, 3 * b);
+    const auto C_ba = C_.template block<4, 3>(4 * b, 3 * a);
+    const double trace = C_ab(0, 0) + C_ab(1, 1) + C_ab(2, 2);
+    return lambda_ * C_ab + mu_ * C_ba + mu_ * trace * identity_;
   }
 
  private:
-  /// At every point, times the root of its weight and so on.
-  std::array<typename Element::NodalVectors, Element::kPoints> g_, lambda_g_, mu_g_;
+  using Column = Eigen::Matrix<double, 4 * Element::kNodes, 1>;  // as NodalVectors
+
+  double lambda_, mu_;
+  Eigen::Matrix<double, 4 * Element::kNodes, 3 * Element::kNodes> C_;
   NodeBlock identity_ = NodeBlock::Identity();
 };
 

@@ -1,4 +1,4 @@
-#include "vacuum_gripper_sim/core/point_pack.h"
+#include "vacuum_gripper_sim/core/element_pack.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -7,8 +7,6 @@
 
 namespace vacuum_gripper_sim {
 namespace {
-
-constexpr int kLanes = Pack::SizeAtCompileTime;
 
 Eigen::Matrix3d Lane(const PackMatrix3& packs, int lane) {
   Eigen::Matrix3d matrix;
@@ -51,7 +49,7 @@ PackMatrix3 RotationsOf(const PackMatrix3& F) {
     }
     if (change.maxCoeff() < kSquaredChange) break;
   }
-  for (int lane = 0; lane < kLanes; ++lane) {
+  for (int lane = 0; lane < kPackLanes; ++lane) {
     if (smallest(lane) > kMinDeterminant && change(lane) < kSquaredChange) continue;
     SetLane(RotationOf(Lane(F, lane)), lane, &R);
   }
@@ -61,62 +59,70 @@ PackMatrix3 RotationsOf(const PackMatrix3& F) {
 }  // namespace
 
 template <typename Element>
-PackMatrix3 PointPack<Element>::Gradient(const Eigen::Matrix3Xd& values) const {
+void ElementPack<Element>::Gather(const Eigen::Matrix3Xd& values, NodalVectors* gathered) const {
+  for (std::size_t a = 0; a < Element::kNodes; ++a) {
+    for (int lane = 0; lane < kPackLanes; ++lane) {
+      const double* const value = values.col(nodes[a][static_cast<std::size_t>(lane)]).data();
+      for (std::size_t i = 0; i < 3; ++i) (*gathered)[a][i](lane) = value[i];
+    }
+  }
+}
+
+template <typename Element>
+PackMatrix3 ElementPack<Element>::Gradient(const NodalVectors& values, std::size_t point) const {
   PackMatrix3 gradient;
   for (Pack& entry : gradient) entry.setZero();
   for (std::size_t a = 0; a < Element::kNodes; ++a) {
-    for (int i = 0; i < 3; ++i) {
-      Pack value;
-      if constexpr (kElements == 1) {
-        value.setConstant(values(i, nodes[0][a]));
-      } else {
-        for (std::size_t e = 0; e < kElements; ++e) {
-          value(static_cast<int>(e)) = values(i, nodes[e][a]);
-        }
-      }
-      for (std::size_t j = 0; j < 3; ++j) {
-        gradient[static_cast<std::size_t>(i) + 3 * j] += value * gradients[a][j];
-      }
+    const std::array<Pack, 3>& dN = gradients[point][a];
+    for (std::size_t j = 0; j < 3; ++j) {
+      for (std::size_t i = 0; i < 3; ++i) gradient[i + 3 * j] += values[a][i] * dN[j];
     }
   }
   return gradient;
 }
 
 template <typename Element>
-void PointPack<Element>::AddDivergence(const PackMatrix3& P, Eigen::Matrix3Xd* target) const {
+void ElementPack<Element>::AddDivergence(const PackMatrix3& P, std::size_t point,
+                                         NodalVectors* sum) const {
   PackMatrix3 weighted;
-  for (std::size_t k = 0; k < 9; ++k) weighted[k] = weights * P[k];
+  for (std::size_t k = 0; k < 9; ++k) weighted[k] = weights[point] * P[k];
   for (std::size_t a = 0; a < Element::kNodes; ++a) {
-    for (int i = 0; i < 3; ++i) {
-      const auto k = static_cast<std::size_t>(i);
-      const Pack sum = weighted[k] * gradients[a][0] + weighted[k + 3] * gradients[a][1] +
-                       weighted[k + 6] * gradients[a][2];
-      if constexpr (kElements == 1) {
-        (*target)(i, nodes[0][a]) += sum.sum();
-      } else {
-        for (std::size_t e = 0; e < kElements; ++e) {
-          (*target)(i, nodes[e][a]) += sum(static_cast<int>(e));
-        }
-      }
+    const std::array<Pack, 3>& dN = gradients[point][a];
+    for (std::size_t i = 0; i < 3; ++i) {
+      (*sum)[a][i] += weighted[i] * dN[0] + weighted[i + 3] * dN[1] + weighted[i + 6] * dN[2];
     }
   }
 }
 
 template <typename Element>
-std::vector<PointPack<Element>> MakePointPacks(const std::vector<Element>& elements) {
-  constexpr std::size_t kElements = PointPack<Element>::kElements;
-  std::vector<PointPack<Element>> packs((elements.size() + kElements - 1) / kElements);
-  for (std::size_t e = 0; e < kElements * packs.size(); ++e) {
-    const Element& element = elements[std::min(e, elements.size() - 1)];
-    PointPack<Element>& pack = packs[e / kElements];
-    pack.nodes[e % kElements] = element.nodes;
-    for (std::size_t q = 0; q < Element::kPoints; ++q) {
-      const auto lane = static_cast<int>((e * Element::kPoints + q) % kLanes);
-      pack.weights(lane) = e < elements.size() ? element.weights[q] : 0.0;
-      for (int a = 0; a < Element::kNodes; ++a) {
-        for (int j = 0; j < 3; ++j) {
-          pack.gradients[static_cast<std::size_t>(a)][static_cast<std::size_t>(j)](lane) =
-              element.gradients[q](j, a);
+void ElementPack<Element>::AddTo(const NodalVectors& values, Eigen::Matrix3Xd* target) const {
+  for (std::size_t a = 0; a < Element::kNodes; ++a) {
+    for (int lane = 0; lane < kPackLanes; ++lane) {
+      double* const sum = target->col(nodes[a][static_cast<std::size_t>(lane)]).data();
+      for (std::size_t i = 0; i < 3; ++i) sum[i] += values[a][i](lane);
+    }
+  }
+}
+
+template <typename Element>
+std::vector<ElementPack<Element>> MakeElementPacks(const std::vector<Element>& elements,
+                                                   std::size_t begin, std::size_t end) {
+  std::vector<ElementPack<Element>> packs;
+  for (; begin < end; begin += kPackLanes) {
+    ElementPack<Element>& pack = packs.emplace_back();
+    for (int lane = 0; lane < kPackLanes; ++lane) {
+      const std::size_t e = begin + static_cast<std::size_t>(lane);
+      const Element& element = elements[std::min(e, end - 1)];
+      for (std::size_t a = 0; a < Element::kNodes; ++a) {
+        pack.nodes[a][static_cast<std::size_t>(lane)] = element.nodes[a];
+      }
+      for (std::size_t q = 0; q < Element::kPoints; ++q) {
+        pack.weights[q](lane) = e < end ? element.weights[q] : 0.0;
+        for (std::size_t a = 0; a < Element::kNodes; ++a) {
+          for (std::size_t j = 0; j < 3; ++j) {
+            pack.gradients[q][a][j](lane) =
+                element.gradients[q](static_cast<Eigen::Index>(j), static_cast<Eigen::Index>(a));
+          }
         }
       }
     }
@@ -139,7 +145,7 @@ PackMatrix3 Stress(const CorotationalLaw& law, const PackMatrix3& F, Pack* tange
 
 PackMatrix3 Stress(const NeoHookeanLaw& law, const PackMatrix3& F, Pack* tangent) {
   PackMatrix3 P;
-  for (int lane = 0; lane < kLanes; ++lane) {
+  for (int lane = 0; lane < kPackLanes; ++lane) {
     NeoHookeanLaw::Tangent tangent_at;
     SetLane(law.Stress(Lane(F, lane), &tangent_at), lane, &P);
     for (int k = 0; k < tangent_at.size(); ++k) tangent[k](lane) = tangent_at.data()[k];
@@ -190,11 +196,11 @@ NeoHookeanLaw::Tangent TangentAt(const NeoHookeanLaw&, const Pack* tangent, int 
   return at;
 }
 
-template struct PointPack<LinearTetrahedron>;
-template struct PointPack<QuadraticTetrahedron>;
-template std::vector<PointPack<LinearTetrahedron>> MakePointPacks(
-    const std::vector<LinearTetrahedron>&);
-template std::vector<PointPack<QuadraticTetrahedron>> MakePointPacks(
-    const std::vector<QuadraticTetrahedron>&);
+template struct ElementPack<LinearTetrahedron>;
+template struct ElementPack<QuadraticTetrahedron>;
+template std::vector<ElementPack<LinearTetrahedron>> MakeElementPacks(
+    const std::vector<LinearTetrahedron>&, std::size_t, std::size_t);
+template std::vector<ElementPack<QuadraticTetrahedron>> MakeElementPacks(
+    const std::vector<QuadraticTetrahedron>&, std::size_t, std::size_t);
 
 }  // namespace vacuum_gripper_sim

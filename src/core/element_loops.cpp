@@ -1,0 +1,188 @@
+#include "vacuum_gripper_sim/core/element_loops.h"
+
+#include <algorithm>
+
+namespace vacuum_gripper_sim {
+namespace {
+
+/// Work for that many threads,
+constexpr std::size_t kParts = 4;
+/// if there is so much of it: integration points of packs.
+constexpr std::size_t kWorthSharing = 200;
+
+void GatherColumns(const Eigen::Matrix3Xd& values, const std::vector<int>& nodes,
+                   Eigen::Matrix3Xd* gathered) {
+  Eigen::Index next = 0;
+  for (const int node : nodes) gathered->col(next++) = values.col(node);
+}
+
+template <typename Part>
+void AddSums(const Part& part, Eigen::Matrix3Xd* target) {
+  Eigen::Index next = 0;
+  for (const int node : part.nodes) target->col(node) += part.sum.col(next++);
+}
+
+/// How many packs hold the tangents of one ElementPack.
+template <typename Element, typename Law>
+std::size_t TangentsPerPack(const ElementPack<Element>& /*pack*/, const Law& law) {
+  return Element::kPoints * static_cast<std::size_t>(TangentSize(law));
+}
+
+/// The crew, if the work is worth a call.
+template <typename Parts>
+Crew* Sharing(const Parts& parts, Crew* crew) {
+  const auto& last = parts.back();
+  const std::size_t num_points =
+      (last.packs_before + last.packs.size()) * last.packs.front().weights.size();
+  return num_points < kWorthSharing ? nullptr : crew;
+}
+
+template <typename NodalVectors>
+void SetZero(NodalVectors* values) {
+  for (auto& at_node : *values) at_node.fill(Pack::Zero());
+}
+
+/// sum -= (h P + factor dP(v)) dN/dX, integrated over one pack. @param[out] tangent Of the pack.
+template <typename Element, typename Law>
+void LinearizePack(const ElementPack<Element>& pack, const Law& law, const Eigen::Matrix3Xd& x,
+                   const Eigen::Matrix3Xd& v, double h, double factor, Pack* tangent,
+                   Eigen::Matrix3Xd* sum) {
+  typename ElementPack<Element>::NodalVectors x_e, v_e, impulse;
+  pack.Gather(x, &x_e);
+  pack.Gather(v, &v_e);
+  SetZero(&impulse);
+  for (std::size_t q = 0; q < Element::kPoints; ++q, tangent += TangentSize(law)) {
+    PackMatrix3 P = Stress(law, pack.Gradient(x_e, q), tangent);
+    const PackMatrix3 dP = StressChange(law, tangent, pack.Gradient(v_e, q));
+    for (std::size_t k = 0; k < P.size(); ++k) P[k] = -h * P[k] - factor * dP[k];
+    pack.AddDivergence(P, q, &impulse);
+  }
+  pack.AddTo(impulse, sum);
+}
+
+/// sum += factor K u of one pack. @param tangent Of the pack.
+template <typename Element, typename Law>
+void AddStiffnessOfPack(const ElementPack<Element>& pack, const Law& law, const Pack* tangent,
+                        double factor, const Eigen::Matrix3Xd& u, Eigen::Matrix3Xd* sum) {
+  typename ElementPack<Element>::NodalVectors u_e, impulse;
+  pack.Gather(u, &u_e);
+  SetZero(&impulse);
+  for (std::size_t q = 0; q < Element::kPoints; ++q, tangent += TangentSize(law)) {
+    PackMatrix3 dP = StressChange(law, tangent, pack.Gradient(u_e, q));
+    for (Pack& entry : dP) entry *= factor;
+    pack.AddDivergence(dP, q, &impulse);
+  }
+  pack.AddTo(impulse, sum);
+}
+
+}  // namespace
+
+template <typename Element>
+ElementLoops::Parts<Element> ElementLoops::MakeParts(const std::vector<Element>& elements,
+                                                     int num_nodes,
+                                                     const std::vector<int>& clamped_nodes) {
+  const std::size_t num_packs = (elements.size() + kPackLanes - 1) / kPackLanes;
+  Parts<Element> parts(kParts);
+  for (std::size_t p = 0; p < kParts; ++p) {
+    Part<Element>& part = parts[p];
+    part.packs_before = p * num_packs / kParts;
+    const std::size_t packs_end = (p + 1) * num_packs / kParts;
+    part.packs = MakeElementPacks(elements, part.packs_before * kPackLanes,
+                                  std::min(packs_end * kPackLanes, elements.size()));
+    std::vector<int> place(static_cast<std::size_t>(num_nodes), -1);
+    for (std::size_t k = 0; k < part.packs.size(); ++k) {
+      bool is_clamped = false;
+      for (auto& lanes : part.packs[k].nodes) {
+        for (int& node : lanes) {
+          is_clamped |= std::binary_search(clamped_nodes.begin(), clamped_nodes.end(), node);
+          int& place_of_node = place[static_cast<std::size_t>(node)];
+          if (place_of_node < 0) {
+            place_of_node = static_cast<int>(part.nodes.size());
+            part.nodes.push_back(node);
+          }
+          node = place_of_node;
+        }
+      }
+      if (is_clamped) part.clamped_packs.push_back(k);
+    }
+    for (Eigen::Matrix3Xd* values : {&part.x, &part.v, &part.sum}) {
+      values->resize(3, static_cast<Eigen::Index>(part.nodes.size()));
+    }
+  }
+  return parts;
+}
+
+ElementLoops::ElementLoops(const ElasticBody& body, const std::vector<int>& clamped_nodes)
+    : body_(&body) {
+  std::visit(
+      [&](const auto& elements) { parts_ = MakeParts(elements, body.num_nodes(), clamped_nodes); },
+      body.elements());
+}
+
+void ElementLoops::Linearize(const Eigen::Matrix3Xd& x, const Eigen::Matrix3Xd& v, double h,
+                             double stiffness_factor, std::vector<Pack>* tangents,
+                             Eigen::Matrix3Xd* sum, Crew* crew) {
+  const auto linearize = [&](auto* part, const auto& law) {
+    GatherColumns(x, part->nodes, &part->x);
+    GatherColumns(v, part->nodes, &part->v);
+    part->sum.setZero();
+    std::size_t next = part->packs_before;
+    for (const auto& pack : part->packs) {
+      Pack* const tangent = tangents->data() + TangentsPerPack(pack, law) * next++;
+      LinearizePack(pack, law, part->x, part->v, h, stiffness_factor, tangent, &part->sum);
+    }
+  };
+  sum->setZero(3, x.cols());
+  std::visit(
+      [&](auto& parts, const auto& law) {
+        tangents->resize(TangentsPerPack(parts.back().packs.back(), law) *
+                         (parts.back().packs_before + parts.back().packs.size()));
+        Share(Sharing(parts, crew), static_cast<int>(parts.size()),
+              [&](int p, int /*member*/) { linearize(&parts[static_cast<std::size_t>(p)], law); });
+        for (const auto& part : parts) AddSums(part, sum);
+      },
+      parts_, body_->law());
+}
+
+void ElementLoops::AddStiffness(const std::vector<Pack>& tangents, double stiffness_factor,
+                                const Eigen::Matrix3Xd& u, Eigen::Matrix3Xd* product, Crew* crew) {
+  const auto multiply = [&](auto* part, const auto& law) {
+    GatherColumns(u, part->nodes, &part->x);
+    part->sum.setZero();
+    std::size_t next = part->packs_before;
+    for (const auto& pack : part->packs) {
+      const Pack* const tangent = tangents.data() + TangentsPerPack(pack, law) * next++;
+      AddStiffnessOfPack(pack, law, tangent, stiffness_factor, part->x, &part->sum);
+    }
+  };
+  std::visit(
+      [&](auto& parts, const auto& law) {
+        Share(Sharing(parts, crew), static_cast<int>(parts.size()),
+              [&](int p, int /*member*/) { multiply(&parts[static_cast<std::size_t>(p)], law); });
+        for (const auto& part : parts) AddSums(part, product);
+      },
+      parts_, body_->law());
+}
+
+void ElementLoops::AddStiffnessOfClamped(const std::vector<Pack>& tangents, double stiffness_factor,
+                                         const Eigen::Matrix3Xd& u, Eigen::Matrix3Xd* product) {
+  const auto multiply = [&](auto* part, const auto& law) {
+    if (part->clamped_packs.empty()) return;
+    GatherColumns(u, part->nodes, &part->x);
+    part->sum.setZero();
+    for (const std::size_t k : part->clamped_packs) {
+      const auto& pack = part->packs[k];
+      const Pack* const tangent =
+          tangents.data() + TangentsPerPack(pack, law) * (part->packs_before + k);
+      AddStiffnessOfPack(pack, law, tangent, stiffness_factor, part->x, &part->sum);
+    }
+    AddSums(*part, product);
+  };
+  std::visit(
+      [&](auto& parts, const auto& law) {
+        for (auto& part : parts) multiply(&part, law);
+      },
+      parts_, body_->law());
+}
+
+}  // namespace vacuum_gripper_sim
