@@ -168,10 +168,13 @@ bool LinearSolver::Refine(const SystemVector& b, const ConstraintOperator& const
   if (r_.norm() <= bound) return true;
 
   if (!held_.Compute(constraints.W(), held, {})) return false;
-  const double fine = slack * parameters_.position_tolerance / system_->time_step();  // [m/s]
-  double correction = std::numeric_limits<double>::infinity();                        // [m/s]
+  const double fine = parameters_.position_tolerance / system_->time_step();  // [m/s]
+  // The last one, and how far the solution may be from it; of the first one that is not known.
+  // [m/s]
+  double correction = std::numeric_limits<double>::infinity();
   p_.SetZero(b.cup.size(), b.bodies.size());
   double rz = 1.0;
+  double first_size = 0.0;  // of a correction
   const double start = r_.norm();
   for (int i = 0;; ++i) {
     const double residual = r_.norm();
@@ -179,12 +182,17 @@ bool LinearSolver::Refine(const SystemVector& b, const ConstraintOperator& const
     ++iterations_;
     Precondition(constraints, !held.empty(), lambda);
     if (r_.norm() <= bound) return true;
-    correction = z_.LargestEntry();
+    const double rz_before = std::exchange(rz, r_.dot(z_));
+    if (!std::isfinite(rz)) return false;
+    const double size = z_.LargestEntry();
+    if (i == 0) first_size = size;
+    // Where A has become softer than what was factorised, corrections are too small, and while they
+    // shrink what they leave in the residual does not.
+    if (i > 0) correction = size * std::max(1.0, (residual / start) / (size / first_size));
     if (correction <= fine) {
       dv->Add(1.0, z_);
       return true;
     }
-    const double rz_before = std::exchange(rz, r_.dot(z_));
     p_ *= rz / rz_before;
     p_.Add(1.0, z_);
     Ap_.cup = system_->Multiply(p_.cup, &crew_);

@@ -4,10 +4,11 @@
 
 namespace vacuum_gripper_sim {
 
-/// Wall times of the steps of a while, and of what was published beside them.
+/// Times of the steps of a while, and of what was published beside them.
 class StepTimes {
  public:
-  /// @param total Of the step. [s] @param publishing What publishing took meanwhile. [s]
+  /// @param total Of the step, wall time. [s] @param publishing What publishing took meanwhile, CPU
+  /// time. [s]
   void Add(double total, double publishing);
   /// Forgets all steps; keeps their memory.
   void Clear();

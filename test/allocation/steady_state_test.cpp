@@ -93,6 +93,13 @@ SteadyCase Shared(const std::string& bell) {
   return result;
 }
 
+SteadyCase SharedIterations(const std::string& bell) {
+  SteadyCase result = ConjugateGradient(bell);
+  result.parameters.linear_solver.threads = 2;
+  result.name += "_shared";
+  return result;
+}
+
 SteadyCase Ejector(const std::string& bell) {
   SteadyCase result = Case(bell, "ejector");
   result.parameters.vacuum.source = VacuumSourceType::kEjector;
@@ -135,7 +142,8 @@ INSTANTIATE_TEST_SUITE_P(Cups, SteadyState,
                          NameOf);
 INSTANTIATE_TEST_SUITE_P(Cups, PulledGrip,
                          testing::Values(Direct(kLinear), ConjugateGradient(kLinear),
-                                         Direct(kQuadratic), ConjugateGradient(kQuadratic)),
+                                         Direct(kQuadratic), ConjugateGradient(kQuadratic),
+                                         SharedIterations(kQuadratic)),
                          NameOf);
 
 }  // namespace

@@ -154,7 +154,7 @@ TEST(SolverPaths, ConjugateGradientsWithAnOldFactorisationAgreeWithTheDirectSolv
 }
 
 // Bit by bit, with every method whose results do not depend on timing.
-TEST(SolverPaths, ThreadsThatShareAFactorisationChangeNothing) {
+TEST(SolverPaths, ThreadsThatShareAStepChangeNothing) {
   for (const char* const bell : {"linear_700", "quadratic_700"}) {
     for (const auto method :
          {LinearSolverMethod::kDirect, LinearSolverMethod::kConjugateGradient}) {

@@ -77,7 +77,7 @@ class Crew {
   std::atomic<int> at_work_{0};             // helpers
   bool stop_{false};
 
-  std::atomic<int> next_{0};              // task, or leaf, to begin
+  std::atomic<int> next_{0};              // task to begin, by its place in a list
   std::deque<std::atomic<int>> missing_;  // by task: children to be done; downwards, itself
 
   std::vector<std::thread> helpers_;  // last: start when all else is there

@@ -88,11 +88,11 @@ class LinearSolver {
    @param b Impulses of the cup and of the bodies. [N s] @param constraints Of factorization().
    @param held Indices of its rows. @param[in,out] dv Motion. [m/s]
    @param[in,out] lambda A force for every row. [N]
-   @param slack How many times the tolerances will do.
+   @param slack How many times the tolerance will do.
    @returns false if neither |r| <= slack tolerance max(|b|, ImplicitEuler::ImpulseScale()) is in
-   reach of max_iterations, nor a last correction z by which nothing moves farther than slack
-   position_tolerance in the step. Of that z what is left is a fraction: of what the factorisation
-   errs by.
+   reach of max_iterations, nor a last correction by which nothing moves farther than
+   position_tolerance in the step, or less where the residual has shrunk less than corrections have:
+   of a correction what is left is A^-1 A_0 - 1 times as much.
 
    [Gould 2001] N. I. M. Gould, M. E. Hribar, J. Nocedal, "On the solution of equality constrained
    quadratic programming problems arising in optimization", SIAM J. Sci. Comput. 23(4). */

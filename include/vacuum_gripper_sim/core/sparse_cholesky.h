@@ -66,6 +66,7 @@ class SparseCholesky {
 
   /// A^-1 b.
   Eigen::VectorXd Solve(const Eigen::VectorXd& b) const;
+  // In neither half of a solve may both vectors be the same one.
   /// y = L^-1 P b, the first half of a solve; in elimination order.
   void Eliminate(const Eigen::VectorXd& b, Eigen::VectorXd* y) const;
   /// x = P^T L^-T y, the second half.

@@ -19,7 +19,7 @@ struct SystemVector {
     return cup.dot(other.cup) + bodies.dot(other.bodies);
   }
   /// By size: how fast a node or a body moves along an axis, or what is 1 m from a body's centre as
-  /// it turns.
+  /// it turns. May overlook what is not a number.
   double LargestEntry() const {
     const double of_cup = cup.size() > 0 ? cup.cwiseAbs().maxCoeff() : 0.0;
     return bodies.size() > 0 ? std::max(of_cup, bodies.cwiseAbs().maxCoeff()) : of_cup;
