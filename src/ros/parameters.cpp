@@ -58,6 +58,7 @@ constexpr Required kRequired[] = {
     {"linear_solver", "method"},
     {"linear_solver", "precision"},
     {"linear_solver", "tolerance"},
+    {"linear_solver", "position_tolerance"},
     {"linear_solver", "max_iterations"},
     {"linear_solver", "refactor_interval"},
     {"linear_solver", "threads"},
