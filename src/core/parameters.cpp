@@ -46,7 +46,9 @@ void Validate(const SimulatorParameters& p) {
 
   Require(p.linear_solver.tolerance > 0.0 && p.linear_solver.tolerance < 1.0,
           "linear_solver.tolerance", p.linear_solver.tolerance, "in (0, 1) [-]");
-  RequireNotNegative("linear_solver.position_tolerance", p.linear_solver.position_tolerance, "[m]");
+  Require(p.linear_solver.position_tolerance >= 0.0 && p.linear_solver.position_tolerance <= 1e-5,
+          "linear_solver.position_tolerance", p.linear_solver.position_tolerance,
+          "in [0, 1e-5] [m]");
   RequireAtLeastOne("linear_solver.max_iterations", p.linear_solver.max_iterations);
   RequireAtLeastOne("linear_solver.refactor_interval", p.linear_solver.refactor_interval);
   Require(p.linear_solver.threads >= 1 && p.linear_solver.threads <= 16, "linear_solver.threads",

@@ -32,7 +32,7 @@ TEST(SimulatorConfig, ReadsEveryKey) {
   const SimulatorParameters p = Read(R"(
 gravity: [1.0, 2.0, 3.0]
 linear_solver: {method: conjugate_gradient, precision: double, tolerance: 0.1,
-                position_tolerance: 0.2, max_iterations: 2, refactor_interval: 3, threads: 4}
+                position_tolerance: 2.0e-6, max_iterations: 2, refactor_interval: 3, threads: 4}
 contact: {solver: gauss_seidel, tolerance: 0.4, acceptable_residual: 0.45, max_iterations: 5,
           relaxation: 1.6, alarm_distance: 0.7}
 seal: {close_gap: 0.8, open_gap: 0.9, max_rounds: 10, ramp_increments: 11}
@@ -43,7 +43,7 @@ cups: [{name: a, position: [0.15, 0.16, 0.17]}]
   EXPECT_EQ(p.linear_solver.method, LinearSolverMethod::kConjugateGradient);
   EXPECT_EQ(p.linear_solver.precision, Precision::kDouble);
   EXPECT_EQ(p.linear_solver.tolerance, 0.1);
-  EXPECT_EQ(p.linear_solver.position_tolerance, 0.2);
+  EXPECT_EQ(p.linear_solver.position_tolerance, 2e-6);
   EXPECT_EQ(p.linear_solver.max_iterations, 2);
   EXPECT_EQ(p.linear_solver.refactor_interval, 3);
   EXPECT_EQ(p.linear_solver.threads, 4);

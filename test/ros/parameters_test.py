@@ -56,7 +56,7 @@ WRONG = {
     'linear_solver.method': ['magic'],
     'linear_solver.precision': ['half'],
     'linear_solver.tolerance': [0.0],
-    'linear_solver.position_tolerance': [-1.0e-9],
+    'linear_solver.position_tolerance': [-1.0e-9, 1.0e-3, float('nan')],
     'linear_solver.max_iterations': [0],
     'linear_solver.refactor_interval': [0],
     'linear_solver.threads': [0, 17],
