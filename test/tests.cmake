@@ -24,10 +24,11 @@ add_test_folder(allocation)
 target_sources(allocation_test PRIVATE test/allocation/counter.cpp)
 
 # The parts of the node that need no graph.
-catkin_add_gtest(node_parts_test test/ros/actuator_test.cpp test/ros/loop_priority_test.cpp
-  test/ros/outbox_test.cpp
+catkin_add_gtest(node_parts_test test/ros/actuator_test.cpp test/ros/core_follower_test.cpp
+  test/ros/loop_priority_test.cpp test/ros/outbox_test.cpp
   test/ros/step_schedule_test.cpp test/ros/step_times_test.cpp src/ros/actuator.cpp
-  src/ros/loop_priority.cpp src/ros/step_schedule.cpp src/ros/step_times.cpp)
+  src/ros/core_follower.cpp src/ros/loop_priority.cpp src/ros/step_schedule.cpp
+  src/ros/step_times.cpp)
 target_include_directories(node_parts_test PRIVATE src/ros)
 target_include_directories(node_parts_test SYSTEM PRIVATE ${catkin_INCLUDE_DIRS})
 target_link_libraries(node_parts_test Eigen3::Eigen ${catkin_LIBRARIES} gtest_main)

@@ -25,6 +25,7 @@ void Diagnostics::OnStep(const StepResult& result, const StepCost& cost, bool me
   const bool counts = static_cast<double>(total_steps_) * time_step_ > kStartUp;
   if (counts && !met_deadline) {
     ++missed_deadlines_;
+    if (cost.wall <= time_step_) ++late_begins_;
     ++window_.late;
   }
   if (counts && cost.computing > time_step_) {
@@ -41,7 +42,7 @@ void Diagnostics::OnStep(const StepResult& result, const StepCost& cost, bool me
   contacts_ = result.num_contacts;
   window_.max_iterations = std::max(window_.max_iterations, result.solver_iterations);
   window_.max_residual = std::max(window_.max_residual, result.solver_residual);
-  times_.Add(cost.wall, cost.publishing);
+  times_.Add({cost.wall, cost.posting, cost.publishing});
 }
 
 void Diagnostics::OnFailure(const std::string& message) {
@@ -64,10 +65,12 @@ void Diagnostics::Report(diagnostic_updater::DiagnosticStatusWrapper& status) {
   status.add("step time mean [ms]", 1e3 * times_.Mean());
   status.add("step time 99th percentile [ms]", 1e3 * times_.Percentile(0.99));
   status.add("step time max [ms]", 1e3 * times_.Max());
+  status.add("posting share [%]", 1e2 * times_.PostingShare());
   status.add("publishing share [%]", 1e2 * times_.PublishingShare());
   status.add("step budget [ms]", 1e3 * time_step_);
   status.add("scheduling", scheduling_);
   status.add("missed deadlines", missed_deadlines_);
+  status.add("missed by steps that only began late", late_begins_);
   status.add("steps computed longer than their period", overlong_steps_);
   status.add("skipped steps", skipped_);
   status.add("real-time factor", times_.count() * time_step_ / elapsed);

@@ -25,8 +25,9 @@ class Diagnostics {
   /// What a step took. [s]
   struct StepCost {
     double wall{0.0};
+    double posting{0.0};     ///< Of it: handing the results over to the thread that publishes them.
     double computing{0.0};   ///< CPU time of the loop's thread.
-    double publishing{0.0};  ///< CPU time meanwhile, of a thread of its own.
+    double publishing{0.0};  ///< CPU time meanwhile of the thread that publishes.
   };
   /// @param met_deadline False if it ended after its period.
   void OnStep(const StepResult& result, const StepCost& cost, bool met_deadline);
@@ -64,6 +65,7 @@ class Diagnostics {
   double solver_tolerance_;  // [m]
   long total_steps_{0};
   long missed_deadlines_{0};
+  long late_begins_{0};     // Of the missed ones: steps that took no longer than their period.
   long overlong_steps_{0};  // That computed for longer than their period.
   long undone_steps_{0};
   long skipped_{0};

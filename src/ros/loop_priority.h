@@ -42,6 +42,8 @@ class LoopPriority {
 
   /// What the system said if it did not grant the priority; empty otherwise.
   const std::string& refusal() const { return refusal_; }
+  /// Whether the thread has it.
+  bool held() const { return held_; }
   /// Before every wait. @param wait How long it will be. @param now Of any clock. [s]
   /// @return True if the priority was given up just now.
   bool OnWait(double wait, double now);

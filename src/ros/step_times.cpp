@@ -6,19 +6,19 @@
 
 namespace vacuum_gripper_sim {
 
-void StepTimes::Add(double total, double publishing) {
-  totals_.push_back(total);
-  sum_ += total;
-  publishing_ += publishing;
+void StepTimes::Add(const StepTime& time) {
+  totals_.push_back(time.total);
+  sum_.total += time.total;
+  sum_.posting += time.posting;
+  sum_.publishing += time.publishing;
 }
 
 void StepTimes::Clear() {
   totals_.clear();
-  sum_ = 0.0;
-  publishing_ = 0.0;
+  sum_ = StepTime();
 }
 
-double StepTimes::Mean() const { return totals_.empty() ? 0.0 : sum_ / count(); }
+double StepTimes::Mean() const { return totals_.empty() ? 0.0 : sum_.total / count(); }
 
 double StepTimes::Max() const {
   return totals_.empty() ? 0.0 : *std::max_element(totals_.begin(), totals_.end());
@@ -32,6 +32,12 @@ double StepTimes::Percentile(double share) {
   return *place;
 }
 
-double StepTimes::PublishingShare() const { return sum_ > 0.0 ? publishing_ / sum_ : 0.0; }
+double StepTimes::PostingShare() const {
+  return sum_.total > 0.0 ? sum_.posting / sum_.total : 0.0;
+}
+
+double StepTimes::PublishingShare() const {
+  return sum_.total > 0.0 ? sum_.publishing / sum_.total : 0.0;
+}
 
 }  // namespace vacuum_gripper_sim

@@ -4,12 +4,17 @@
 
 namespace vacuum_gripper_sim {
 
+/// What a step took. [s]
+struct StepTime {
+  double total{0.0};       ///< Wall time.
+  double posting{0.0};     ///< Of it: handing the results over.
+  double publishing{0.0};  ///< CPU time meanwhile of another thread.
+};
+
 /// Times of the steps of a while, and of what was published beside them.
 class StepTimes {
  public:
-  /// @param total Of the step, wall time. [s] @param publishing What publishing took meanwhile, CPU
-  /// time. [s]
-  void Add(double total, double publishing);
+  void Add(const StepTime& time);
   /// Forgets all steps; keeps their memory.
   void Clear();
 
@@ -19,13 +24,14 @@ class StepTimes {
   /// The smallest time that at least `share` of the steps did not exceed ("nearest rank"). [s]
   /// @param share 0 < share <= 1.
   double Percentile(double share);
+  /// Of handing results over, in all the steps' time. [-]
+  double PostingShare() const;
   /// Of publishing, over all the steps' time. [-]
   double PublishingShare() const;
 
  private:
   std::vector<double> totals_;  // [s], in no order
-  double sum_{0.0};             // [s]
-  double publishing_{0.0};      // [s]
+  StepTime sum_;
 };
 
 }  // namespace vacuum_gripper_sim

@@ -74,6 +74,7 @@ void VacuumGripperNode::Run() {
         parameters_.realtime_priority, priority.refusal().c_str());
   }
   diagnostics_.SetScheduling(SchedulingOfThisThread());
+  outbox_.FollowPoster(priority.held());
   while (ros::ok()) {
     switch (schedule_.Poll(ros::Time::now())) {
       case StepSchedule::Event::kWait:
@@ -93,6 +94,7 @@ void VacuumGripperNode::Run() {
     const ros::WallDuration wait = schedule_.TimeToWait(ros::Time::now());
     if (priority.OnWait(wait.toSec(), ros::SteadyTime::now().toSec())) {
       diagnostics_.SetScheduling(SchedulingOfThisThread());
+      outbox_.FollowPoster(false);
       ROS_WARN(
           "realtime_priority = %d is given up, scheduled normally from now on: for a second no "
           "step ended before the next was due, and others would have been kept from the core",
@@ -118,11 +120,13 @@ void VacuumGripperNode::Step(const ros::Time& stamp) {
   if (undone && throttle_.Pass("undone")) {
     ROS_ERROR("step undone, last good state restored: %s", result.message.c_str());
   }
+  const ros::WallTime before_posting = ros::WallTime::now();
   Post(Occasion::kStep, stamp);
+  Diagnostics::StepCost cost;
+  cost.posting = (ros::WallTime::now() - before_posting).toSec();
   if (!undone) margin_monitor_.OnStep(stamp, simulator_);
 
   const bool met_deadline = schedule_.OnStepFinished(ros::Time::now());
-  Diagnostics::StepCost cost;
   cost.wall = (ros::WallTime::now() - begin).toSec();
   cost.computing = ThreadTime() - computing_before;
   cost.publishing = outbox_.TakeDeliveryTime();

@@ -331,7 +331,8 @@ class DisplayTest(GripTestCase):
         subscriber.unregister()
         values = {value.key: value.value for value in statuses[-1].values}
         for key in ('step time mean [ms]', 'step time 99th percentile [ms]',
-                    'publishing share [%]', 'step budget [ms]', 'missed deadlines',
+                    'posting share [%]', 'publishing share [%]', 'step budget [ms]',
+                    'missed deadlines', 'missed by steps that only began late',
                     'steps computed longer than their period',
                     'real-time factor', 'contacts', 'solver iterations max',
                     'solver residual max [m]', 'set-point age [s]'):

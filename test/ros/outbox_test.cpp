@@ -1,6 +1,7 @@
 #include "outbox.h"
 
 #include <gtest/gtest.h>
+#include <sched.h>
 
 #include <atomic>
 #include <chrono>
@@ -79,6 +80,45 @@ TEST(Outbox, ItemsKeepTheirMemory) {
   Outbox<std::vector<int>> outbox([](const std::vector<int>&) {}, 1);
   outbox.Post([](std::vector<int>* item) { item->assign(2, 0); });
   outbox.Post([](std::vector<int>* item) { EXPECT_GE(item->capacity(), 2U); });
+}
+
+/// How many cores the calling thread may run on.
+int NumCores() {
+  cpu_set_t cores;
+  EXPECT_EQ(sched_getaffinity(0, sizeof(cores), &cores), 0);
+  return CPU_COUNT(&cores);
+}
+
+TEST(Outbox, DeliversOnThePostersCoreIfAskedTo) {
+  std::atomic<int> num_cores{0};
+  Outbox<int> outbox([&](int) { num_cores = NumCores(); }, 1);
+  // There is room for the second one when the first has been delivered.
+  const auto deliver = [&] {
+    for (int i = 0; i < 2; ++i) outbox.Post([&](int* item) { *item = i; });
+    return num_cores.load();
+  };
+  EXPECT_EQ(deliver(), NumCores());
+  outbox.FollowPoster(true);
+  EXPECT_EQ(deliver(), 1);
+  outbox.FollowPoster(false);
+  EXPECT_EQ(deliver(), NumCores());
+}
+
+TEST(Outbox, LeavesThePostersCoreWhileDeliveriesAreBehind) {
+  std::promise<void> let_go;
+  std::vector<int> num_cores;
+  {
+    Outbox<int> outbox(
+        [&, may_go = let_go.get_future().share()](int) {
+          may_go.wait();
+          num_cores.push_back(NumCores());
+        },
+        10);
+    outbox.FollowPoster(true);
+    for (int i = 0; i < 5; ++i) outbox.Post([&](int* item) { *item = i; });
+    let_go.set_value();
+  }
+  EXPECT_EQ(num_cores, std::vector<int>(5, NumCores()));
 }
 
 TEST(Outbox, TellsWhatDeliveringTook) {

@@ -1,5 +1,6 @@
 #!/usr/bin/python3
-"""A gripper whose steps three threads share and that wants a priority: all three get it, or none."""
+"""A gripper whose steps three threads share and that wants a priority: all three get it, or none,
+and the thread that publishes stays on the core of the one that steps, or goes where it likes."""
 
 import os
 import pathlib
@@ -29,11 +30,18 @@ class RealtimeTest(unittest.TestCase):
         threads = [int(task.name) for task in pathlib.Path(f'/proc/{pid}/task').iterdir()]
         first = [os.sched_getparam(thread).sched_priority for thread in threads
                  if os.sched_getscheduler(thread) & ~os.SCHED_RESET_ON_FORK == os.SCHED_FIFO]
+
+        def kept_on_a_core():
+            return [thread for thread in threads
+                    if len(os.sched_getaffinity(thread)) < len(os.sched_getaffinity(0))]
+
         if values['scheduling'] == 'normal':  # not allowed here, or given up
             self.assertEqual(first, [])
+            self.assertEqual(kept_on_a_core(), [])
         else:
             self.assertEqual(values['scheduling'], 'SCHED_FIFO 5')
             self.assertEqual(first, [5, 5, 5])
+            wait_until(lambda: len(kept_on_a_core()) == 1, 'the publishing thread on its core')
         self.assertGreater(len(threads), 3)
 
 
