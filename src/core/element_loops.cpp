@@ -1,13 +1,12 @@
 #include "vacuum_gripper_sim/core/element_loops.h"
 
 #include <algorithm>
+#include <numeric>
 
 namespace vacuum_gripper_sim {
 namespace {
 
-/// Work for that many threads,
-constexpr std::size_t kParts = 4;
-/// if there is so much of it: integration points of packs.
+/// Work that is worth a call of the crew: integration points of packs.
 constexpr std::size_t kWorthSharing = 200;
 
 void GatherColumns(const Eigen::Matrix3Xd& values, const std::vector<int>& nodes,
@@ -20,12 +19,6 @@ template <typename Part>
 void AddSums(const Part& part, Eigen::Matrix3Xd* target) {
   Eigen::Index next = 0;
   for (const int node : part.nodes) target->col(node) += part.sum.col(next++);
-}
-
-/// How many packs hold the tangents of one ElementPack.
-template <typename Element, typename Law>
-std::size_t TangentsPerPack(const ElementPack<Element>& /*pack*/, const Law& law) {
-  return Element::kPoints * static_cast<std::size_t>(TangentSize(law));
 }
 
 /// The crew, if the work is worth a call.
@@ -62,8 +55,8 @@ void LinearizePack(const ElementPack<Element>& pack, const Law& law, const Eigen
 
 /// sum += factor K u of one pack. @param tangent Of the pack.
 template <typename Element, typename Law>
-void AddStiffnessOfPack(const ElementPack<Element>& pack, const Law& law, const Pack* tangent,
-                        double factor, const Eigen::Matrix3Xd& u, Eigen::Matrix3Xd* sum) {
+void AddStiffness(const ElementPack<Element>& pack, const Law& law, const Pack* tangent,
+                  double factor, const Eigen::Matrix3Xd& u, Eigen::Matrix3Xd* sum) {
   typename ElementPack<Element>::NodalVectors u_e, impulse;
   pack.Gather(u, &u_e);
   SetZero(&impulse);
@@ -75,6 +68,20 @@ void AddStiffnessOfPack(const ElementPack<Element>& pack, const Law& law, const 
   pack.AddTo(impulse, sum);
 }
 
+/// The part's sum = factor K u of some of its packs.
+template <typename Part, typename Law>
+void SumStiffness(const std::vector<std::size_t>& packs, const std::vector<Pack>& tangents,
+                  const Law& law, double factor, const Eigen::Matrix3Xd& u, Part* part) {
+  using Element = typename Part::ElementType;
+  GatherColumns(u, part->nodes, &part->x);
+  part->sum.setZero();
+  for (const std::size_t k : packs) {
+    const Pack* const tangent =
+        tangents.data() + TangentsBegin<Element>(part->packs_before + k, law);
+    AddStiffness(part->packs[k], law, tangent, factor, part->x, &part->sum);
+  }
+}
+
 }  // namespace
 
 template <typename Element>
@@ -82,13 +89,15 @@ ElementLoops::Parts<Element> ElementLoops::MakeParts(const std::vector<Element>&
                                                      int num_nodes,
                                                      const std::vector<int>& clamped_nodes) {
   const std::size_t num_packs = (elements.size() + kPackLanes - 1) / kPackLanes;
-  Parts<Element> parts(kParts);
-  for (std::size_t p = 0; p < kParts; ++p) {
+  Parts<Element> parts(kElementParts);
+  for (std::size_t p = 0; p < kElementParts; ++p) {
     Part<Element>& part = parts[p];
-    part.packs_before = p * num_packs / kParts;
-    const std::size_t packs_end = (p + 1) * num_packs / kParts;
+    part.packs_before = p * num_packs / kElementParts;
+    const std::size_t packs_end = (p + 1) * num_packs / kElementParts;
     part.packs = MakeElementPacks(elements, part.packs_before * kPackLanes,
                                   std::min(packs_end * kPackLanes, elements.size()));
+    part.all_packs.resize(part.packs.size());
+    std::iota(part.all_packs.begin(), part.all_packs.end(), std::size_t{0});
     std::vector<int> place(static_cast<std::size_t>(num_nodes), -1);
     for (std::size_t k = 0; k < part.packs.size(); ++k) {
       bool is_clamped = false;
@@ -122,23 +131,25 @@ ElementLoops::ElementLoops(const ElasticBody& body, const std::vector<int>& clam
 void ElementLoops::Linearize(const Eigen::Matrix3Xd& x, const Eigen::Matrix3Xd& v, double h,
                              double stiffness_factor, std::vector<Pack>* tangents,
                              Eigen::Matrix3Xd* sum, Crew* crew) {
-  const auto linearize = [&](auto* part, const auto& law) {
-    GatherColumns(x, part->nodes, &part->x);
-    GatherColumns(v, part->nodes, &part->v);
-    part->sum.setZero();
-    std::size_t next = part->packs_before;
-    for (const auto& pack : part->packs) {
-      Pack* const tangent = tangents->data() + TangentsPerPack(pack, law) * next++;
-      LinearizePack(pack, law, part->x, part->v, h, stiffness_factor, tangent, &part->sum);
-    }
-  };
   sum->setZero(3, x.cols());
   std::visit(
       [&](auto& parts, const auto& law) {
-        tangents->resize(TangentsPerPack(parts.back().packs.back(), law) *
-                         (parts.back().packs_before + parts.back().packs.size()));
-        Share(Sharing(parts, crew), static_cast<int>(parts.size()),
-              [&](int p, int /*member*/) { linearize(&parts[static_cast<std::size_t>(p)], law); });
+        using Element = typename std::decay_t<decltype(parts.front())>::ElementType;
+        const auto& last = parts.back();
+        tangents->resize(TangentsBegin<Element>(last.packs_before + last.packs.size(), law));
+        const auto linearize = [&](int p, int /*member*/) {
+          auto& part = parts[static_cast<std::size_t>(p)];
+          GatherColumns(x, part.nodes, &part.x);
+          GatherColumns(v, part.nodes, &part.v);
+          part.sum.setZero();
+          for (const std::size_t k : part.all_packs) {
+            Pack* const tangent =
+                tangents->data() + TangentsBegin<Element>(part.packs_before + k, law);
+            LinearizePack(part.packs[k], law, part.x, part.v, h, stiffness_factor, tangent,
+                          &part.sum);
+          }
+        };
+        Share(Sharing(parts, crew), static_cast<int>(parts.size()), linearize);
         for (const auto& part : parts) AddSums(part, sum);
       },
       parts_, body_->law());
@@ -146,19 +157,13 @@ void ElementLoops::Linearize(const Eigen::Matrix3Xd& x, const Eigen::Matrix3Xd& 
 
 void ElementLoops::AddStiffness(const std::vector<Pack>& tangents, double stiffness_factor,
                                 const Eigen::Matrix3Xd& u, Eigen::Matrix3Xd* product, Crew* crew) {
-  const auto multiply = [&](auto* part, const auto& law) {
-    GatherColumns(u, part->nodes, &part->x);
-    part->sum.setZero();
-    std::size_t next = part->packs_before;
-    for (const auto& pack : part->packs) {
-      const Pack* const tangent = tangents.data() + TangentsPerPack(pack, law) * next++;
-      AddStiffnessOfPack(pack, law, tangent, stiffness_factor, part->x, &part->sum);
-    }
-  };
   std::visit(
       [&](auto& parts, const auto& law) {
-        Share(Sharing(parts, crew), static_cast<int>(parts.size()),
-              [&](int p, int /*member*/) { multiply(&parts[static_cast<std::size_t>(p)], law); });
+        const auto multiply = [&](int p, int /*member*/) {
+          auto& part = parts[static_cast<std::size_t>(p)];
+          SumStiffness(part.all_packs, tangents, law, stiffness_factor, u, &part);
+        };
+        Share(Sharing(parts, crew), static_cast<int>(parts.size()), multiply);
         for (const auto& part : parts) AddSums(part, product);
       },
       parts_, body_->law());
@@ -166,21 +171,13 @@ void ElementLoops::AddStiffness(const std::vector<Pack>& tangents, double stiffn
 
 void ElementLoops::AddStiffnessOfClamped(const std::vector<Pack>& tangents, double stiffness_factor,
                                          const Eigen::Matrix3Xd& u, Eigen::Matrix3Xd* product) {
-  const auto multiply = [&](auto* part, const auto& law) {
-    if (part->clamped_packs.empty()) return;
-    GatherColumns(u, part->nodes, &part->x);
-    part->sum.setZero();
-    for (const std::size_t k : part->clamped_packs) {
-      const auto& pack = part->packs[k];
-      const Pack* const tangent =
-          tangents.data() + TangentsPerPack(pack, law) * (part->packs_before + k);
-      AddStiffnessOfPack(pack, law, tangent, stiffness_factor, part->x, &part->sum);
-    }
-    AddSums(*part, product);
-  };
   std::visit(
       [&](auto& parts, const auto& law) {
-        for (auto& part : parts) multiply(&part, law);
+        for (auto& part : parts) {
+          if (part.clamped_packs.empty()) continue;
+          SumStiffness(part.clamped_packs, tangents, law, stiffness_factor, u, &part);
+          AddSums(part, product);
+        }
       },
       parts_, body_->law());
 }

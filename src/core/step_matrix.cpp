@@ -7,17 +7,12 @@
 namespace vacuum_gripper_sim {
 namespace {
 
-/// Work for that many threads; a linear cup of 700 elements gets a quarter more places by it.
-constexpr std::size_t kParts = 4;
-
 template <typename Element, typename Law>
 void FindTangents(std::size_t e, const Law& law, const Linearization& linearization,
                   PointTangents<Element, Law>* tangents) {
-  const auto tangent_size = static_cast<std::size_t>(TangentSize(law));
-  for (std::size_t q = 0; q < Element::kPoints; ++q) {
-    const std::size_t point = e / kPackLanes * Element::kPoints + q;
-    (*tangents)[q] = TangentAt(law, linearization.tangents.data() + point * tangent_size,
-                               static_cast<int>(e % kPackLanes));
+  const Pack* tangent = linearization.tangents.data() + TangentsBegin<Element>(e / kPackLanes, law);
+  for (std::size_t q = 0; q < Element::kPoints; ++q, tangent += TangentSize(law)) {
+    (*tangents)[q] = TangentAt(law, tangent, static_cast<int>(e % kPackLanes));
   }
 }
 
@@ -34,10 +29,10 @@ StepMatrix::StepMatrix(const ElasticBody& body, const std::vector<int>& free_row
 template <typename Element>
 void StepMatrix::FindParts(const std::vector<Element>& elements, const std::vector<int>& free_row) {
   std::vector<bool> has_mass(free_row.size(), false);
-  for (std::size_t p = 0; p < kParts; ++p) {
+  for (std::size_t p = 0; p < kElementParts; ++p) {
     Part part;
-    part.elements_begin = p * elements.size() / kParts;
-    part.elements_end = (p + 1) * elements.size() / kParts;
+    part.elements_begin = p * elements.size() / kElementParts;
+    part.elements_end = (p + 1) * elements.size() / kElementParts;
     part.blocks_begin = blocks_.size();
     part.masses_begin = masses_.size();
     part.places_begin = static_cast<std::ptrdiff_t>(pattern_.places.size());

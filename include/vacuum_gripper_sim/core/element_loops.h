@@ -23,7 +23,7 @@ class ElementLoops {
   /** Impulses of stress and stiffness, sum of -(h P(x) + c dP(x; v)) dN/dX integrated.
    @param x,v Positions [m] and velocities [m/s], 3 by #nodes. @param h Time step. [s]
    @param stiffness_factor c. [s^2]
-   @param[out] tangents Of the law, pack by pack, point by point, see TangentSize().
+   @param[out] tangents Of the law, see TangentsBegin().
    @param[out] sum 3 by #nodes. [N s] @param crew Shares the work; none: this thread alone. */
   void Linearize(const Eigen::Matrix3Xd& x, const Eigen::Matrix3Xd& v, double h,
                  double stiffness_factor, std::vector<Pack>* tangents, Eigen::Matrix3Xd* sum,
@@ -40,11 +40,12 @@ class ElementLoops {
   /// Some packs; their nodes are places in `nodes`.
   template <typename Element>
   struct Part {
+    using ElementType = Element;
     std::vector<ElementPack<Element>> packs;
-    std::vector<std::size_t> clamped_packs;
-    std::size_t packs_before{0};  ///< In other parts.
-    std::vector<int> nodes;       ///< Of the mesh.
-    Eigen::Matrix3Xd x, v, sum;   ///< At these.
+    std::vector<std::size_t> all_packs, clamped_packs;  ///< The latter with clamped nodes.
+    std::size_t packs_before{0};                        ///< In other parts.
+    std::vector<int> nodes;                             ///< Of the mesh.
+    Eigen::Matrix3Xd x, v, sum;                         ///< At these.
   };
   template <typename Element>
   using Parts = std::vector<Part<Element>>;

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <vector>
 
 #include "vacuum_gripper_sim/core/material_model.h"
@@ -17,6 +18,9 @@ constexpr int kPackLanes =
 using Pack = Eigen::Array<double, kPackLanes, 1>;
 /// Entry (i, j) at i + 3 j.
 using PackMatrix3 = std::array<Pack, 9>;
+/// Elements are visited in so many parts of neighbours: work for that many threads. The step matrix
+/// of 700 linear elements gets a quarter more places by it.
+constexpr std::size_t kElementParts = 4;
 
 /** Some elements side by side, so that the loop over elements runs in vector registers. One that
  is not full repeats its last element with weight zero. */
@@ -47,6 +51,13 @@ std::vector<ElementPack<Element>> MakeElementPacks(const std::vector<Element>& e
 /// How many packs hold what a law keeps of its tangent at a point.
 constexpr int TangentSize(const CorotationalLaw&) { return 9; }  // the rotation
 constexpr int TangentSize(const NeoHookeanLaw&) { return 81; }
+
+/// Where the tangents of a pack begin among those of all, which are stored pack by pack, point by
+/// point.
+template <typename Element, typename Law>
+std::size_t TangentsBegin(std::size_t pack, const Law& law) {
+  return pack * Element::kPoints * static_cast<std::size_t>(TangentSize(law));
+}
 
 /// P at F. [Pa] @param[out] tangent TangentSize() packs.
 PackMatrix3 Stress(const CorotationalLaw& law, const PackMatrix3& F, Pack* tangent);

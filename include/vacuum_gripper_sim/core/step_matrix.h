@@ -14,7 +14,7 @@ namespace vacuum_gripper_sim {
 
 /// All that A = mass_factor M + stiffness_factor K depends on at one state.
 struct Linearization {
-  std::vector<Pack> tangents;    ///< Of ElementPacks one after the other, point by point.
+  std::vector<Pack> tangents;    ///< Of all elements, see TangentsBegin().
   double stiffness_factor{0.0};  ///< [s^2]
   double mass_factor{0.0};       ///< [-]
 };
