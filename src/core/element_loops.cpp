@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <type_traits>
 
 namespace vacuum_gripper_sim {
 namespace {
@@ -55,8 +56,8 @@ void LinearizePack(const ElementPack<Element>& pack, const Law& law, const Eigen
 
 /// sum += factor K u of one pack. @param tangent Of the pack.
 template <typename Element, typename Law>
-void AddStiffness(const ElementPack<Element>& pack, const Law& law, const Pack* tangent,
-                  double factor, const Eigen::Matrix3Xd& u, Eigen::Matrix3Xd* sum) {
+void AddStiffnessOfPack(const ElementPack<Element>& pack, const Law& law, const Pack* tangent,
+                        double factor, const Eigen::Matrix3Xd& u, Eigen::Matrix3Xd* sum) {
   typename ElementPack<Element>::NodalVectors u_e, impulse;
   pack.Gather(u, &u_e);
   SetZero(&impulse);
@@ -78,7 +79,7 @@ void SumStiffness(const std::vector<std::size_t>& packs, const std::vector<Pack>
   for (const std::size_t k : packs) {
     const Pack* const tangent =
         tangents.data() + TangentsBegin<Element>(part->packs_before + k, law);
-    AddStiffness(part->packs[k], law, tangent, factor, part->x, &part->sum);
+    AddStiffnessOfPack(part->packs[k], law, tangent, factor, part->x, &part->sum);
   }
 }
 

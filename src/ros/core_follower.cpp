@@ -11,6 +11,7 @@ CoreFollower::CoreFollower(pthread_t thread)
 void CoreFollower::Follow() {
   const int core = sched_getcpu();
   if (!knows_anywhere_ || core < 0 || core == core_) return;
+  if (!CPU_ISSET(static_cast<std::size_t>(core), &anywhere_)) return LetGo();
   cpu_set_t own;
   CPU_ZERO(&own);
   CPU_SET(static_cast<std::size_t>(core), &own);

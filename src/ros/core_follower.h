@@ -7,15 +7,15 @@ namespace vacuum_gripper_sim {
 
 /** Keeps a thread on the core of another one that wakes it up and then rests.
 
- Waking a thread on another core interrupts that core, which takes as long as the host of a virtual
- machine likes: some 40 us have been seen, a fifth of a step at 1 kHz. On the own core it takes 5.
- */
+ Waking a thread on another core interrupts that core, which on a virtual machine takes as long as
+ its host likes: some 40 us have been seen, where a step took 200; on the own core it takes 6. */
 class CoreFollower {
  public:
   /// @param thread Must outlive the use of this. It may run wherever the caller may.
   explicit CoreFollower(pthread_t thread);
 
-  /// From now on the thread runs on the calling thread's core.
+  /// From now on the thread runs on the calling thread's core; where it may not run there, anywhere
+  /// it may.
   void Follow();
   /// From now on it runs where it likes, as in the beginning.
   void LetGo();

@@ -42,7 +42,7 @@ void Diagnostics::OnStep(const StepResult& result, const StepCost& cost, bool me
   contacts_ = result.num_contacts;
   window_.max_iterations = std::max(window_.max_iterations, result.solver_iterations);
   window_.max_residual = std::max(window_.max_residual, result.solver_residual);
-  times_.Add({cost.wall, cost.posting, cost.publishing});
+  times_.Add(cost);
 }
 
 void Diagnostics::OnFailure(const std::string& message) {

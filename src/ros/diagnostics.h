@@ -22,13 +22,6 @@ class Diagnostics {
   Diagnostics(const std::string& hardware_id, double period, double time_step,
               double solver_tolerance);
 
-  /// What a step took. [s]
-  struct StepCost {
-    double wall{0.0};
-    double posting{0.0};     ///< Of it: handing the results over to the thread that publishes them.
-    double computing{0.0};   ///< CPU time of the loop's thread.
-    double publishing{0.0};  ///< CPU time meanwhile of the thread that publishes.
-  };
   /// @param met_deadline False if it ended after its period.
   void OnStep(const StepResult& result, const StepCost& cost, bool met_deadline);
   /// The simulation could not be continued and began anew.

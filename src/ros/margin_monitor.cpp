@@ -28,13 +28,15 @@ MarginMonitor::~MarginMonitor() {
 
 void MarginMonitor::OnStep(const ros::Time& stamp, const Simulator& simulator) {
   const ros::WallTime now = ros::WallTime::now();
-  if (now < next_ || publisher_.getNumSubscribers() == 0) return;
+  if (now < next_) return;
+  next_ = now + period_;
+  // Not in every step: it takes a lock that threads hold which publish.
+  if (publisher_.getNumSubscribers() == 0) return;
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     if (moment_) return;
     moment_ = Moment{stamp, simulator.Save()};
   }
-  next_ = now + period_;
   changed_.notify_one();
 }
 

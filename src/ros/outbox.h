@@ -48,11 +48,13 @@ class Outbox {
 
   /// Whether items are delivered on the core of the thread that posts, which then spends less on
   /// waking up the outbox's. For one that goes before it there and rests between two items: see
-  /// CoreFollower. Where deliveries fall behind, they go on on any core until they have caught up.
+  /// CoreFollower. Where three items wait, deliveries go on on any core, for the next kLongWay
+  /// items.
   void FollowPoster(bool follows) {
     follows_ = follows;
     if (!follows) follower_->LetGo();
   }
+  static constexpr std::size_t kLongWay = 1000;
 
   /// Waits while the outbox is full. @param fill void(Item*), sets all of an item, new or used.
   template <typename Fill>
@@ -68,7 +70,7 @@ class Outbox {
   double TakeDeliveryTime() { return 1e-9 * static_cast<double>(delivery_time_.exchange(0)); }
 
  private:
-  static constexpr std::size_t kBehind = 3;  // Items that wait where deliveries fall behind.
+  static constexpr std::size_t kBehind = 3;  // Items that wait where deliveries have no time.
 
   static void Wait(sem_t* semaphore) {
     while (sem_wait(semaphore) != 0) {  // a signal came between
@@ -76,11 +78,11 @@ class Outbox {
   }
 
   void ChooseCore() {
-    const std::size_t waiting = num_posted_ - num_delivered_;
-    if (waiting == 0) {
-      follower_->Follow();
-    } else if (waiting >= kBehind) {
+    if (num_posted_ - num_delivered_ >= kBehind) {
       follower_->LetGo();
+      follow_from_ = num_posted_ + kLongWay;
+    } else if (num_posted_ >= follow_from_) {
+      follower_->Follow();
     }
   }
 
@@ -103,6 +105,7 @@ class Outbox {
   std::atomic<std::int64_t> delivery_time_{0};  // [ns]
   std::atomic<bool> stopping_{false};
   bool follows_{false};
+  std::size_t follow_from_{0};  // Items posted.
   std::thread thread_;
   std::optional<CoreFollower> follower_;  // of the thread
 };

@@ -6,38 +6,37 @@
 
 namespace vacuum_gripper_sim {
 
-void StepTimes::Add(const StepTime& time) {
-  totals_.push_back(time.total);
-  sum_.total += time.total;
-  sum_.posting += time.posting;
-  sum_.publishing += time.publishing;
+void StepTimes::Add(const StepCost& cost) {
+  walls_.push_back(cost.wall);
+  sum_.wall += cost.wall;
+  sum_.posting += cost.posting;
+  sum_.computing += cost.computing;
+  sum_.publishing += cost.publishing;
 }
 
 void StepTimes::Clear() {
-  totals_.clear();
-  sum_ = StepTime();
+  walls_.clear();
+  sum_ = StepCost();
 }
 
-double StepTimes::Mean() const { return totals_.empty() ? 0.0 : sum_.total / count(); }
+double StepTimes::Mean() const { return walls_.empty() ? 0.0 : sum_.wall / count(); }
 
 double StepTimes::Max() const {
-  return totals_.empty() ? 0.0 : *std::max_element(totals_.begin(), totals_.end());
+  return walls_.empty() ? 0.0 : *std::max_element(walls_.begin(), walls_.end());
 }
 
 double StepTimes::Percentile(double share) {
-  if (totals_.empty()) return 0.0;
+  if (walls_.empty()) return 0.0;
   const int rank = std::clamp(static_cast<int>(std::ceil(share * count())), 1, count());
-  const auto place = totals_.begin() + (rank - 1);
-  std::nth_element(totals_.begin(), place, totals_.end());
+  const auto place = walls_.begin() + (rank - 1);
+  std::nth_element(walls_.begin(), place, walls_.end());
   return *place;
 }
 
-double StepTimes::PostingShare() const {
-  return sum_.total > 0.0 ? sum_.posting / sum_.total : 0.0;
-}
+double StepTimes::PostingShare() const { return sum_.wall > 0.0 ? sum_.posting / sum_.wall : 0.0; }
 
 double StepTimes::PublishingShare() const {
-  return sum_.total > 0.0 ? sum_.publishing / sum_.total : 0.0;
+  return sum_.wall > 0.0 ? sum_.publishing / sum_.wall : 0.0;
 }
 
 }  // namespace vacuum_gripper_sim

@@ -13,6 +13,7 @@
 
 #include "loop_priority.h"
 #include "messages.h"
+#include "step_times.h"
 #include "thread_time.h"
 #include "vacuum_gripper_sim/core/gmsh_reader.h"
 
@@ -122,7 +123,7 @@ void VacuumGripperNode::Step(const ros::Time& stamp) {
   }
   const ros::WallTime before_posting = ros::WallTime::now();
   Post(Occasion::kStep, stamp);
-  Diagnostics::StepCost cost;
+  StepCost cost;
   cost.posting = (ros::WallTime::now() - before_posting).toSec();
   if (!undone) margin_monitor_.OnStep(stamp, simulator_);
 

@@ -7,16 +7,20 @@
 #include <vector>
 
 #include "support/bending_block.h"
+#include "vacuum_gripper_sim/core/delassus_operator.h"
+#include "vacuum_gripper_sim/core/linear_solver.h"
+#include "vacuum_gripper_sim/core/sparse_cholesky.h"
 
 namespace vacuum_gripper_sim {
 namespace {
 
+constexpr double kTimeStep = BendingBlock::kTimeStep;
 const std::vector<std::vector<NodeColumn>> kNoContacts{{}};
 
 TEST(LinearSolver, TakesWhatTheSecondThreadFinished) {
   BendingBlock block;
   block.Linearize();
-  LinearSolver solver(With(LinearSolverMethod::kAsynchronous), block.system());
+  LinearSolver solver(SolverParametersWith(LinearSolverMethod::kAsynchronous), block.system());
   const Eigen::VectorXd b = Eigen::VectorXd::LinSpaced(block.size(), -1.0, 1.0);
   ASSERT_TRUE(solver.Compute());
   solver.FactorizeAhead(kNoContacts, kTimeStep);
@@ -53,7 +57,7 @@ TEST(LinearSolver, HasWOfContactsMadeAlongWithAFactorisation) {
                                          {7, Eigen::Vector3d::UnitX()}};
   BendingBlock block;
   block.Linearize();
-  LinearSolver solver(With(LinearSolverMethod::kAsynchronous), block.system());
+  LinearSolver solver(SolverParametersWith(LinearSolverMethod::kAsynchronous), block.system());
   EXPECT_EQ(solver.TakePrepared(), nullptr);
   ASSERT_TRUE(solver.Compute());
   EXPECT_EQ(solver.TakePrepared(), nullptr);  // its own factorisation comes without
@@ -71,7 +75,7 @@ TEST(LinearSolver, HasWOfContactsMadeAlongWithAFactorisation) {
 TEST(LinearSolver, HasPreparedWOnceAndForItsFactorisationAlone) {
   BendingBlock block;
   block.Linearize();
-  LinearSolver solver(With(LinearSolverMethod::kAsynchronous), block.system());
+  LinearSolver solver(SolverParametersWith(LinearSolverMethod::kAsynchronous), block.system());
   ASSERT_TRUE(solver.Compute());
   FactorizeAndTake(kNoContacts, &block, &solver);
   EXPECT_NE(solver.TakePrepared(), nullptr);
@@ -89,7 +93,7 @@ TEST(LinearSolver, HasPreparedWOnceAndForItsFactorisationAlone) {
 TEST(LinearSolver, HasNobodyToFactorizeAheadOnOneThread) {
   BendingBlock block;
   block.Linearize();
-  LinearSolver solver(With(LinearSolverMethod::kConjugateGradient), block.system());
+  LinearSolver solver(SolverParametersWith(LinearSolverMethod::kConjugateGradient), block.system());
   ASSERT_TRUE(solver.Compute());
   EXPECT_FALSE(solver.MayFactorizeAhead());
   solver.FactorizeAhead(kNoContacts, kTimeStep);

@@ -4,7 +4,6 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
-#include <utility>
 #include <vector>
 
 #include "support/bending_block.h"
@@ -12,11 +11,13 @@
 namespace vacuum_gripper_sim {
 namespace {
 
+constexpr double kTimeStep = BendingBlock::kTimeStep;
+
 // For three steps, as they all need iterations.
 TEST(LinearSolver, ReusesAFactorisationForSomeSteps) {
   BendingBlock block;
   block.Linearize();
-  LinearSolver solver(With(LinearSolverMethod::kConjugateGradient), block.system());
+  LinearSolver solver(SolverParametersWith(LinearSolverMethod::kConjugateGradient), block.system());
   const Eigen::VectorXd b = Eigen::VectorXd::LinSpaced(block.size(), -1.0, 1.0);
   int generation = 0;
   for (const bool expected : {true, false, false, true, false}) {
@@ -35,7 +36,7 @@ TEST(LinearSolver, ReusesAFactorisationForSomeSteps) {
 TEST(LinearSolver, HasItsThreadsShareAFactorisation) {
   BendingBlock block;
   block.Linearize();
-  LinearSolverParameters parameters = With(LinearSolverMethod::kDirect);
+  LinearSolverParameters parameters = SolverParametersWith(LinearSolverMethod::kDirect);
   EXPECT_EQ(LinearSolver(parameters, block.system()).factorization().num_branches(), 1);
   parameters.threads = 3;
   EXPECT_GT(LinearSolver(parameters, block.system()).factorization().num_branches(), 1);
@@ -45,7 +46,7 @@ TEST(LinearSolver, HasItsThreadsShareAFactorisation) {
 TEST(LinearSolver, KeepsAFactorisationThatNeedsNoIterations) {
   BendingBlock block;
   block.Linearize();
-  LinearSolver solver(With(LinearSolverMethod::kConjugateGradient), block.system());
+  LinearSolver solver(SolverParametersWith(LinearSolverMethod::kConjugateGradient), block.system());
   const Eigen::VectorXd b = Eigen::VectorXd::LinSpaced(block.size(), -1.0, 1.0);
   for (int step = 0; step < 12; ++step) {
     ASSERT_TRUE(solver.Compute());
@@ -60,7 +61,7 @@ TEST(LinearSolver, KeepsAFactorisationThatNeedsNoIterations) {
 TEST(LinearSolver, StartsFromTheMultipleOfAGuess) {
   BendingBlock block;
   block.Linearize();
-  LinearSolver solver(With(LinearSolverMethod::kConjugateGradient), block.system());
+  LinearSolver solver(SolverParametersWith(LinearSolverMethod::kConjugateGradient), block.system());
   ASSERT_TRUE(solver.Compute());
   const Touching nothing(*block.system(), solver, {});
   const Eigen::VectorXd b = Eigen::VectorXd::LinSpaced(block.size(), -1.0, 1.0);
@@ -95,7 +96,8 @@ INSTANTIATE_TEST_SUITE_P(LinearSolver, HeldContacts, testing::Bool(), [](const a
 TEST_P(HeldContacts, KeepTheirGaps) {
   BendingBlock block;
   block.Linearize();
-  LinearSolverParameters parameters = With(LinearSolverMethod::kConjugateGradient, 10);
+  LinearSolverParameters parameters =
+      SolverParametersWith(LinearSolverMethod::kConjugateGradient, 10);
   if (GetParam()) {
     parameters.tolerance = 1e-15;
     parameters.position_tolerance = 1e-10;
@@ -150,7 +152,8 @@ TEST(LinearSolver, EndsWithACorrectionThatMovesNothingFar) {
   for (const double tolerance : {1e-11, 1e-8, 1e-5}) {
     BendingBlock block;
     block.Linearize();
-    LinearSolverParameters parameters = With(LinearSolverMethod::kConjugateGradient);
+    LinearSolverParameters parameters =
+        SolverParametersWith(LinearSolverMethod::kConjugateGradient);
     parameters.tolerance = 1e-15;  // out of reach
     parameters.position_tolerance = tolerance;
     LinearSolver solver(parameters, block.system());
@@ -177,7 +180,8 @@ TEST(LinearSolver, AFactorisationThatIsTooStiffMakesNoSmallCorrections) {
   for (const double angle : {0.001, 0.003, 0.01, 0.03, 0.1}) {
     BendingBlock plate(MakeBlock(20, 4, 1, {0.02, 0.01, 0.001}, true));
     plate.Linearize();
-    LinearSolverParameters parameters = With(LinearSolverMethod::kConjugateGradient, 1000, 200);
+    LinearSolverParameters parameters =
+        SolverParametersWith(LinearSolverMethod::kConjugateGradient, 1000, 200);
     parameters.precision = Precision::kSingle;
     parameters.position_tolerance = 1e-8;
     LinearSolver solver(parameters, plate.system());
@@ -210,7 +214,8 @@ TEST(LinearSolver, AFactorisationThatIsTooStiffMakesNoSmallCorrections) {
 TEST(LinearSolver, GivesUpWhereAFactorisationIsTooOld) {
   BendingBlock block;
   block.Linearize();
-  LinearSolver solver(With(LinearSolverMethod::kConjugateGradient, 1000, 3), block.system());
+  LinearSolver solver(SolverParametersWith(LinearSolverMethod::kConjugateGradient, 1000, 3),
+                      block.system());
   ASSERT_TRUE(solver.Compute());
   block.Turn(1.0);
   ASSERT_TRUE(solver.Compute());
@@ -230,7 +235,8 @@ TEST(LinearSolver, GivesUpWhereAFactorisationIsTooOld) {
 TEST(LinearSolver, TriesLessOftenTheLongerItIsInVain) {
   BendingBlock block;
   block.Linearize();
-  LinearSolver solver(With(LinearSolverMethod::kConjugateGradient, 1000, 3), block.system());
+  LinearSolver solver(SolverParametersWith(LinearSolverMethod::kConjugateGradient, 1000, 3),
+                      block.system());
   ASSERT_TRUE(solver.Compute());
   const Eigen::VectorXd b = Eigen::VectorXd::Ones(block.size());
   const auto step = [&](double angle) {
@@ -259,7 +265,8 @@ TEST(LinearSolver, TriesLessOftenTheLongerItIsInVain) {
 TEST(LinearSolver, EverySolveOfAStepHasItsOwnIterations) {
   BendingBlock block;
   block.Linearize();
-  LinearSolver solver(With(LinearSolverMethod::kConjugateGradient, 1000, 12), block.system());
+  LinearSolver solver(SolverParametersWith(LinearSolverMethod::kConjugateGradient, 1000, 12),
+                      block.system());
   ASSERT_TRUE(solver.Compute());
   block.Bend(0.03);
   ASSERT_TRUE(solver.Compute());
@@ -274,7 +281,7 @@ TEST(LinearSolver, EverySolveOfAStepHasItsOwnIterations) {
 TEST(LinearSolver, IterationsMakeUpForSinglePrecision) {
   BendingBlock block;
   block.Linearize();
-  LinearSolverParameters parameters = With(LinearSolverMethod::kDirect);
+  LinearSolverParameters parameters = SolverParametersWith(LinearSolverMethod::kDirect);
   parameters.precision = Precision::kSingle;
   LinearSolver solver(parameters, block.system());
   const Eigen::VectorXd b = Eigen::VectorXd::LinSpaced(block.size(), -1.0, 1.0);

@@ -4,23 +4,28 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <cstddef>
 #include <utility>
 #include <vector>
 
 #include "support/block_mesh.h"
 #include "support/node_matrices.h"
 #include "vacuum_gripper_sim/core/constraint_operator.h"
+#include "vacuum_gripper_sim/core/contact.h"
 #include "vacuum_gripper_sim/core/elastic_body.h"
 #include "vacuum_gripper_sim/core/implicit_euler.h"
 #include "vacuum_gripper_sim/core/linear_solver.h"
+#include "vacuum_gripper_sim/core/rigid_surface.h"
 #include "vacuum_gripper_sim/core/rigid_world.h"
+#include "vacuum_gripper_sim/core/tet_mesh.h"
 
 namespace vacuum_gripper_sim {
 
-inline constexpr double kTimeStep = 0.01;  // s
 /// The matrices of a block that bends on from step to step.
 class BendingBlock {
  public:
+  static constexpr double kTimeStep = 0.01;  // s
+
   explicit BendingBlock(TetMesh mesh = MakeBlock(4, 3, 2, {0.02, 0.01, 0.01}, false))
       : mesh_(std::move(mesh)) {}
   ImplicitEuler* system() { return &system_; }
@@ -47,8 +52,9 @@ class BendingBlock {
   Eigen::Matrix3Xd x_ = mesh_.nodes;
 };
 
-inline LinearSolverParameters With(LinearSolverMethod method, int refactor_interval = 3,
-                                   int max_iterations = 50) {
+inline LinearSolverParameters SolverParametersWith(LinearSolverMethod method,
+                                                   int refactor_interval = 3,
+                                                   int max_iterations = 50) {
   LinearSolverParameters parameters;
   parameters.method = method;
   parameters.precision = Precision::kDouble;
@@ -66,7 +72,7 @@ class Touching {
            const std::vector<NodeColumn>& rows)
       : constraints_(system) {
     world_.SetObjects({FixedObject(RigidSurface{"plane", Plane{}})});
-    constraints_.Reset(solver.factorization(), world_, kTimeStep);
+    constraints_.Reset(solver.factorization(), world_, BendingBlock::kTimeStep);
     std::vector<Contact> contacts;
     constraints_.SetContacts(contacts);
     for (const NodeColumn& row : rows) {
