@@ -24,7 +24,8 @@ double WayBetween(double from, double to) {
   return way > M_PI ? way - kTurn : way < -M_PI ? way + kTurn : way;
 }
 
-int WrapSample(int k) { return ((k % kSamples) + kSamples) % kSamples; }
+/// @param k -kSamples <= k < 2 kSamples.
+int WrapSample(int k) { return k < 0 ? k + kSamples : k < kSamples ? k : k - kSamples; }
 
 double At(const Profile& profile, int k) {
   return profile[static_cast<std::size_t>(WrapSample(k))];
@@ -57,10 +58,11 @@ Profile MeridianGaps(const CavitySurface& surface, int cup, const std::vector<do
       const auto b = static_cast<std::size_t>(neighbour);
       const double way = WayBetween(azimuth[a], azimuth[b]);
       if (way <= 0.0) continue;  // the same edge comes the other way round
+      const double per_way = 1.0 / way;
       const double peak = PeakOver(static_cast<int>(a), neighbour, ways);
       const int last = static_cast<int>(std::floor((azimuth[a] + way) / kStep));
       for (int k = static_cast<int>(std::ceil(azimuth[a] / kStep)); k <= last; ++k) {
-        const double t = (k * kStep - azimuth[a]) / way;
+        const double t = (k * kStep - azimuth[a]) * per_way;
         double& smallest = profile[static_cast<std::size_t>(WrapSample(k))];
         smallest = std::min(
             smallest, (1.0 - t) * gap[a] + t * gap[b] + (1.0 - std::abs(2.0 * t - 1.0)) * peak);
