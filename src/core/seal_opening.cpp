@@ -57,7 +57,7 @@ Profile MeridianGaps(const CavitySurface& surface, int cup, const std::vector<do
     for (const int neighbour : surface.neighbours[a]) {
       const auto b = static_cast<std::size_t>(neighbour);
       const double way = WayBetween(azimuth[a], azimuth[b]);
-      if (way <= 0.0) continue;  // the same edge comes the other way round
+      if (!(way > 0.0)) continue;  // the same edge comes the other way round
       const double per_way = 1.0 / way;
       const double peak = PeakOver(static_cast<int>(a), neighbour, ways);
       const int last = static_cast<int>(std::floor((azimuth[a] + way) / kStep));

@@ -48,13 +48,13 @@ class Outbox {
 
   /// Whether items are delivered on the core of the thread that posts, which then spends less on
   /// waking up the outbox's. For one that goes before it there and rests between two items: see
-  /// CoreFollower. Where three items wait, deliveries go on on any core, for the next kLongWay
-  /// items.
+  /// CoreFollower. Where three items wait, deliveries go on on any core for the next
+  /// kItemsElsewhere.
   void FollowPoster(bool follows) {
     follows_ = follows;
     if (!follows) follower_->LetGo();
   }
-  static constexpr std::size_t kLongWay = 1000;
+  static constexpr std::size_t kItemsElsewhere = 1000;
 
   /// Waits while the outbox is full. @param fill void(Item*), sets all of an item, new or used.
   template <typename Fill>
@@ -80,7 +80,7 @@ class Outbox {
   void ChooseCore() {
     if (num_posted_ - num_delivered_ >= kBehind) {
       follower_->LetGo();
-      follow_from_ = num_posted_ + kLongWay;
+      follow_from_ = num_posted_ + kItemsElsewhere;
     } else if (num_posted_ >= follow_from_) {
       follower_->Follow();
     }

@@ -128,14 +128,14 @@ TEST(Outbox, LeavesThePostersCoreForAWhileWhenDeliveriesFallBehind) {
     post(5);  // the fourth one finds three that wait
     let_go.set_value();
     catch_up();
-    for (std::size_t i = 0; i < Outbox<int>::kLongWay; ++i) {
+    for (std::size_t i = 0; i < Outbox<int>::kItemsElsewhere; ++i) {
       post(1);
       catch_up();
     }
   }
   // The fifth one was the last to find them: so many on any core, and the next one beside the
   // poster.
-  const std::size_t num_elsewhere = 4 + Outbox<int>::kLongWay;
+  const std::size_t num_elsewhere = 4 + Outbox<int>::kItemsElsewhere;
   ASSERT_EQ(num_cores.size(), num_elsewhere + 1);
   EXPECT_EQ(std::vector<int>(num_cores.begin(), num_cores.end() - 1),
             std::vector<int>(num_elsewhere, NumCores()));
