@@ -1,7 +1,6 @@
 #include "vacuum_gripper_sim/core/elastic_body.h"
 
 #include <Eigen/LU>
-#include <cmath>
 #include <cstddef>
 
 #include "vacuum_gripper_sim/core/element_order.h"
@@ -40,11 +39,10 @@ ShapeFunctions<10> QuadraticShape(const Eigen::Vector4d& L) {
 std::array<Eigen::Vector4d, 1> LinearPoints() { return {Eigen::Vector4d::Constant(0.25)}; }
 
 std::array<Eigen::Vector4d, 4> QuadraticPoints() {
-  const double b = (5.0 - std::sqrt(5.0)) / 20.0;  // exact for polynomials of degree 2
   std::array<Eigen::Vector4d, 4> points;
   for (int q = 0; q < 4; ++q) {
-    points[static_cast<std::size_t>(q)] = Eigen::Vector4d::Constant(b);
-    points[static_cast<std::size_t>(q)](q) = 1.0 - 3.0 * b;
+    points[static_cast<std::size_t>(q)] = Eigen::Vector4d::Constant(kFarCoordinate);
+    points[static_cast<std::size_t>(q)](q) = 1.0 - 3.0 * kFarCoordinate;
   }
   return points;
 }
@@ -71,8 +69,9 @@ std::vector<Tetrahedron<N, Q>> MakeElements(const TetMesh& mesh,
       const ShapeFunctions<N> shape = shape_at(points[q]);
       const Eigen::Matrix<double, N, 3> local = shape.derivatives * to_local;
       const Eigen::Matrix3d J = X.template topRows<3>() * local;
+      element.dL_dX[q] = J.inverse();
       element.gradients[q].setZero();
-      element.gradients[q].template topRows<3>() = (local * J.inverse()).transpose();
+      element.gradients[q].template topRows<3>() = (local * element.dL_dX[q]).transpose();
       element.weights[q] = J.determinant() / (6.0 * Q);
       volume += element.weights[q];
       for (int a = 0; a < N; ++a) {

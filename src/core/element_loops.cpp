@@ -31,42 +31,39 @@ Crew* Sharing(const Parts& parts, Crew* crew) {
   return num_points < kWorthSharing ? nullptr : crew;
 }
 
-template <typename NodalVectors>
-void SetZero(NodalVectors* values) {
-  for (auto& at_node : *values) at_node.fill(Pack::Zero());
-}
-
 /// sum -= (h P + factor dP(v)) dN/dX, integrated over one pack. @param[out] tangent Of the pack.
 template <typename Element, typename Law>
 void LinearizePack(const ElementPack<Element>& pack, const Law& law, const Eigen::Matrix3Xd& x,
                    const Eigen::Matrix3Xd& v, double h, double factor, Pack* tangent,
                    Eigen::Matrix3Xd* sum) {
-  typename ElementPack<Element>::NodalVectors x_e, v_e, impulse;
-  pack.Gather(x, &x_e);
-  pack.Gather(v, &v_e);
-  SetZero(&impulse);
+  typename ElementPack<Element>::NodalVectors values;
+  typename ElementPack<Element>::PointMatrices F, dF, P;
+  pack.Gather(x, &values);
+  pack.Gradients(values, &F);
+  pack.Gather(v, &values);
+  pack.Gradients(values, &dF);
   for (std::size_t q = 0; q < Element::kPoints; ++q, tangent += TangentSize(law)) {
-    PackMatrix3 P = Stress(law, pack.Gradient(x_e, q), tangent);
-    const PackMatrix3 dP = StressChange(law, tangent, pack.Gradient(v_e, q));
-    for (std::size_t k = 0; k < P.size(); ++k) P[k] = -h * P[k] - factor * dP[k];
-    pack.AddDivergence(P, q, &impulse);
+    P[q] = Stress(law, F[q], tangent);
+    const PackMatrix3 dP = StressChange(law, tangent, dF[q]);
+    for (std::size_t k = 0; k < dP.size(); ++k) P[q][k] = h * P[q][k] + factor * dP[k];
   }
-  pack.AddTo(impulse, sum);
+  pack.Divergence(P, -1.0, &values);
+  pack.AddTo(values, sum);
 }
 
 /// sum += factor K u of one pack. @param tangent Of the pack.
 template <typename Element, typename Law>
 void AddStiffnessOfPack(const ElementPack<Element>& pack, const Law& law, const Pack* tangent,
                         double factor, const Eigen::Matrix3Xd& u, Eigen::Matrix3Xd* sum) {
-  typename ElementPack<Element>::NodalVectors u_e, impulse;
-  pack.Gather(u, &u_e);
-  SetZero(&impulse);
+  typename ElementPack<Element>::NodalVectors values;
+  typename ElementPack<Element>::PointMatrices dF, dP;
+  pack.Gather(u, &values);
+  pack.Gradients(values, &dF);
   for (std::size_t q = 0; q < Element::kPoints; ++q, tangent += TangentSize(law)) {
-    PackMatrix3 dP = StressChange(law, tangent, pack.Gradient(u_e, q));
-    for (Pack& entry : dP) entry *= factor;
-    pack.AddDivergence(dP, q, &impulse);
+    dP[q] = StressChange(law, tangent, dF[q]);
   }
-  pack.AddTo(impulse, sum);
+  pack.Divergence(dP, factor, &values);
+  pack.AddTo(values, sum);
 }
 
 /// The part's sum = factor K u of some of its packs.

@@ -3,57 +3,77 @@
 #include <algorithm>
 #include <cstddef>
 
-#include "vacuum_gripper_sim/core/polar_decomposition.h"
-
 namespace vacuum_gripper_sim {
 namespace {
 
-Eigen::Matrix3d Lane(const PackMatrix3& packs, int lane) {
-  Eigen::Matrix3d matrix;
-  for (std::size_t k = 0; k < 9; ++k) matrix.data()[k] = packs[k](lane);
-  return matrix;
+template <typename Element>
+using NodalVectors = typename ElementPack<Element>::NodalVectors;
+template <typename Element>
+using PointMatrices = typename ElementPack<Element>::PointMatrices;
+
+// v = sum of L_a v_a: entry (i, a) of its gradient by L1 .. L3, where L0 is one less the others, is
+// that of dv/dL_a - dv/dL_0.
+void LocalGradients(const NodalVectors<LinearTetrahedron>& v, PointMatrices<LinearTetrahedron>* H) {
+  for (std::size_t a = 1; a < 4; ++a) {
+    for (std::size_t i = 0; i < 3; ++i) (*H)[0][i + 3 * (a - 1)] = v[a][i] - v[0][i];
+  }
 }
 
-void SetLane(const Eigen::Matrix3d& matrix, int lane, PackMatrix3* packs) {
-  for (std::size_t k = 0; k < 9; ++k) (*packs)[k](lane) = matrix.data()[k];
+/// Transposed.
+void LocalDivergence(const PointMatrices<LinearTetrahedron>& T,
+                     NodalVectors<LinearTetrahedron>* sum) {
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t a = 1; a < 4; ++a) (*sum)[a][i] = T[0][i + 3 * (a - 1)];
+    (*sum)[0][i] = -(T[0][i] + T[0][i + 3] + T[0][i + 6]);
+  }
 }
 
-/// Column c of the cofactors: a x b of the two columns that follow.
-void SetCofactors(const PackMatrix3& R, std::size_t c, PackMatrix3* cofactors) {
-  const Pack* const a = &R[3 * ((c + 1) % 3)];
-  const Pack* const b = &R[3 * ((c + 2) % 3)];
-  (*cofactors)[3 * c] = a[1] * b[2] - a[2] * b[1];
-  (*cofactors)[3 * c + 1] = a[2] * b[0] - a[0] * b[2];
-  (*cofactors)[3 * c + 2] = a[0] * b[1] - a[1] * b[0];
-}
+// Ten nodes: v_aa at corner a, v_ab = v_ba between the corners a and b, so that
+//
+//     v = sum_a L_a (2 L_a - 1) v_aa + sum_{a<b} 4 L_a L_b v_ab,
+//     dv/dL_a = 4 sum_b L_b v_ab - v_aa.
+//
+// At the point near corner q, L_q = 1 - 3 f and all others are f: the sum is the same at all points
+// but for (1 - 4 f) v_aq.
+constexpr std::size_t kNode[4][4] = {{0, 4, 6, 7}, {4, 1, 5, 8}, {6, 5, 2, 9}, {7, 8, 9, 3}};
+constexpr double kFar = 4.0 * kFarCoordinate;
+constexpr double kNear = 4.0 * (1.0 - 4.0 * kFarCoordinate);
 
-/// RotationOf() lane by lane; what its Newton's iteration leaves to others is left to it.
-PackMatrix3 RotationsOf(const PackMatrix3& F) {
-  constexpr double kMinDeterminant = 0.05;
-  constexpr double kSquaredChange = 1e-16;
-  constexpr int kMaxIterations = 12;
-  PackMatrix3 R = F;
-  PackMatrix3 cofactors;
-  Pack smallest = Pack::Constant(1.0);  // determinant so far
-  Pack change;
-  for (int i = 0; i < kMaxIterations; ++i) {
-    for (std::size_t c = 0; c < 3; ++c) SetCofactors(R, c, &cofactors);
-    const Pack determinant = R[0] * cofactors[0] + R[1] * cofactors[1] + R[2] * cofactors[2];
-    smallest = smallest.min(determinant);
-    const Pack factor = 0.5 / determinant;
-    change.setZero();
-    for (std::size_t k = 0; k < 9; ++k) {
-      const Pack next = 0.5 * R[k] + factor * cofactors[k];
-      change += (next - R[k]).square();
-      R[k] = next;
+void LocalGradients(const NodalVectors<QuadraticTetrahedron>& v,
+                    PointMatrices<QuadraticTetrahedron>* H) {
+  for (std::size_t i = 0; i < 3; ++i) {
+    std::array<Pack, 4> common;
+    for (std::size_t a = 0; a < 4; ++a) {
+      const auto& node = kNode[a];
+      common[a] = kFar * (v[node[0]][i] + v[node[1]][i] + v[node[2]][i] + v[node[3]][i]) - v[a][i];
     }
-    if (change.maxCoeff() < kSquaredChange) break;
+    for (std::size_t a = 1; a < 4; ++a) {
+      const Pack difference = common[a] - common[0];
+      for (std::size_t q = 0; q < 4; ++q) {
+        (*H)[q][i + 3 * (a - 1)] = difference + kNear * (v[kNode[a][q]][i] - v[kNode[0][q]][i]);
+      }
+    }
   }
-  for (int lane = 0; lane < kPackLanes; ++lane) {
-    if (smallest(lane) > kMinDeterminant && change(lane) < kSquaredChange) continue;
-    SetLane(RotationOf(Lane(F, lane)), lane, &R);
+}
+
+/// Transposed.
+void LocalDivergence(const PointMatrices<QuadraticTetrahedron>& T,
+                     NodalVectors<QuadraticTetrahedron>* sum) {
+  for (std::size_t i = 0; i < 3; ++i) {
+    std::array<std::array<Pack, 4>, 4> t;  // by a and q
+    for (std::size_t q = 0; q < 4; ++q) {
+      for (std::size_t a = 1; a < 4; ++a) t[a][q] = T[q][i + 3 * (a - 1)];
+      t[0][q] = -(t[1][q] + t[2][q] + t[3][q]);
+    }
+    std::array<Pack, 4> total;
+    for (std::size_t a = 0; a < 4; ++a) total[a] = t[a][0] + t[a][1] + t[a][2] + t[a][3];
+    for (std::size_t a = 0; a < 4; ++a) {
+      (*sum)[a][i] = (kFar - 1.0) * total[a] + kNear * t[a][a];
+      for (std::size_t b = 0; b < a; ++b) {
+        (*sum)[kNode[a][b]][i] = kFar * (total[a] + total[b]) + kNear * (t[a][b] + t[b][a]);
+      }
+    }
   }
-  return R;
 }
 
 }  // namespace
@@ -69,29 +89,33 @@ void ElementPack<Element>::Gather(const Eigen::Matrix3Xd& values, NodalVectors* 
 }
 
 template <typename Element>
-PackMatrix3 ElementPack<Element>::Gradient(const NodalVectors& values, std::size_t point) const {
-  PackMatrix3 gradient;
-  for (Pack& entry : gradient) entry.setZero();
-  for (std::size_t a = 0; a < Element::kNodes; ++a) {
-    const std::array<Pack, 3>& dN = gradients[point][a];
+void ElementPack<Element>::Gradients(const NodalVectors& values, PointMatrices* gradients) const {
+  PointMatrices H;
+  LocalGradients(values, &H);
+  for (std::size_t q = 0; q < Element::kPoints; ++q) {
     for (std::size_t j = 0; j < 3; ++j) {
-      for (std::size_t i = 0; i < 3; ++i) gradient[i + 3 * j] += values[a][i] * dN[j];
+      const Pack* const dL = &dL_dX[q][3 * j];
+      for (std::size_t i = 0; i < 3; ++i) {
+        (*gradients)[q][i + 3 * j] = H[q][i] * dL[0] + H[q][i + 3] * dL[1] + H[q][i + 6] * dL[2];
+      }
     }
   }
-  return gradient;
 }
 
 template <typename Element>
-void ElementPack<Element>::AddDivergence(const PackMatrix3& P, std::size_t point,
-                                         NodalVectors* sum) const {
-  PackMatrix3 weighted;
-  for (std::size_t k = 0; k < 9; ++k) weighted[k] = weights[point] * P[k];
-  for (std::size_t a = 0; a < Element::kNodes; ++a) {
-    const std::array<Pack, 3>& dN = gradients[point][a];
-    for (std::size_t i = 0; i < 3; ++i) {
-      (*sum)[a][i] += weighted[i] * dN[0] + weighted[i + 3] * dN[1] + weighted[i + 6] * dN[2];
+void ElementPack<Element>::Divergence(const PointMatrices& P, double factor,
+                                      NodalVectors* divergence) const {
+  PointMatrices T;
+  for (std::size_t q = 0; q < Element::kPoints; ++q) {
+    const Pack scale = factor * weights[q];
+    for (std::size_t a = 0; a < 3; ++a) {
+      const Pack* const dL = &dL_dX[q][a];
+      for (std::size_t i = 0; i < 3; ++i) {
+        T[q][i + 3 * a] = scale * (P[q][i] * dL[0] + P[q][i + 3] * dL[3] + P[q][i + 6] * dL[6]);
+      }
     }
   }
+  LocalDivergence(T, divergence);
 }
 
 template <typename Element>
@@ -118,82 +142,11 @@ std::vector<ElementPack<Element>> MakeElementPacks(const std::vector<Element>& e
       }
       for (std::size_t q = 0; q < Element::kPoints; ++q) {
         pack.weights[q](lane) = e < end ? element.weights[q] : 0.0;
-        for (std::size_t a = 0; a < Element::kNodes; ++a) {
-          for (std::size_t j = 0; j < 3; ++j) {
-            pack.gradients[q][a][j](lane) =
-                element.gradients[q](static_cast<Eigen::Index>(j), static_cast<Eigen::Index>(a));
-          }
-        }
+        for (std::size_t k = 0; k < 9; ++k) pack.dL_dX[q][k](lane) = element.dL_dX[q].data()[k];
       }
     }
   }
   return packs;
-}
-
-PackMatrix3 Stress(const CorotationalLaw& law, const PackMatrix3& F, Pack* tangent) {
-  const PackMatrix3 R = RotationsOf(F);
-  std::copy(R.begin(), R.end(), tangent);
-  Pack trace = Pack::Constant(-3.0);
-  for (std::size_t k = 0; k < 9; ++k) trace += R[k] * F[k];
-  const Pack pressure = law.lame().lambda * trace;
-  PackMatrix3 P;
-  for (std::size_t k = 0; k < 9; ++k) {
-    P[k] = 2.0 * law.lame().mu * (F[k] - R[k]) + pressure * R[k];
-  }
-  return P;
-}
-
-PackMatrix3 Stress(const NeoHookeanLaw& law, const PackMatrix3& F, Pack* tangent) {
-  PackMatrix3 P;
-  for (int lane = 0; lane < kPackLanes; ++lane) {
-    NeoHookeanLaw::Tangent tangent_at;
-    SetLane(law.Stress(Lane(F, lane), &tangent_at), lane, &P);
-    for (int k = 0; k < tangent_at.size(); ++k) tangent[k](lane) = tangent_at.data()[k];
-  }
-  return P;
-}
-
-PackMatrix3 StressChange(const CorotationalLaw& law, const Pack* tangent, const PackMatrix3& dF) {
-  const Pack* const R = tangent;
-  Pack trace = Pack::Zero();
-  for (std::size_t k = 0; k < 9; ++k) trace += R[k] * dF[k];
-  const Pack pressure = law.lame().lambda * trace;
-  const double mu = law.lame().mu;
-  PackMatrix3 dP;
-  for (std::size_t j = 0; j < 3; ++j) {
-    Pack column[3];  // of dF^T R
-    for (std::size_t i = 0; i < 3; ++i) {
-      column[i] =
-          dF[3 * i] * R[3 * j] + dF[3 * i + 1] * R[3 * j + 1] + dF[3 * i + 2] * R[3 * j + 2];
-    }
-    for (std::size_t i = 0; i < 3; ++i) {
-      const std::size_t k = i + 3 * j;
-      dP[k] = pressure * R[k] +
-              mu * (dF[k] + R[i] * column[0] + R[i + 3] * column[1] + R[i + 6] * column[2]);
-    }
-  }
-  return dP;
-}
-
-PackMatrix3 StressChange(const NeoHookeanLaw&, const Pack* tangent, const PackMatrix3& dF) {
-  PackMatrix3 dP;
-  for (Pack& entry : dP) entry.setZero();
-  for (std::size_t column = 0; column < 9; ++column) {
-    for (std::size_t k = 0; k < 9; ++k) dP[k] += tangent[k + 9 * column] * dF[column];
-  }
-  return dP;
-}
-
-CorotationalLaw::Tangent TangentAt(const CorotationalLaw&, const Pack* tangent, int lane) {
-  CorotationalLaw::Tangent at;
-  for (int k = 0; k < at.R.size(); ++k) at.R.data()[k] = tangent[k](lane);
-  return at;
-}
-
-NeoHookeanLaw::Tangent TangentAt(const NeoHookeanLaw&, const Pack* tangent, int lane) {
-  NeoHookeanLaw::Tangent at;
-  for (int k = 0; k < at.size(); ++k) at.data()[k] = tangent[k](lane);
-  return at;
 }
 
 template struct ElementPack<LinearTetrahedron>;

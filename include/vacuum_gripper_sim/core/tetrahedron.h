@@ -21,6 +21,8 @@ struct Tetrahedron {
   std::array<int, N> nodes;               ///< Mesh nodes, VTK order.
   std::array<double, Q> weights;          ///< Rest volume of each point. [m^3]
   std::array<NodalVectors, Q> gradients;  ///< dN_a/dX at each point. [1/m]
+  /// Of the barycentric coordinates L1 .. L3, a row each, at each point. [1/m]
+  std::array<Eigen::Matrix3d, Q> dL_dX;
 
   /// Columns of a 3 by #nodes array at the element's nodes.
   NodalVectors Gather(const Eigen::Matrix3Xd& values) const {
@@ -38,8 +40,13 @@ struct Tetrahedron {
   }
 };
 
+/// With its point in the middle.
 using LinearTetrahedron = Tetrahedron<4, 1>;
+/// With a point near each corner, in the order of these.
 using QuadraticTetrahedron = Tetrahedron<10, 4>;
+/// A quadratic tetrahedron's points: their barycentric coordinates by the three farther corners,
+/// (5 - sqrt 5) / 20, for which polynomials of degree 2 are integrated exactly.
+constexpr double kFarCoordinate = 0.138196601125010515;
 
 /// A law's tangents at an element's integration points.
 template <typename Element, typename Law>
