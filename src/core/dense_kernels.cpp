@@ -96,9 +96,14 @@ void SolveTile(const Scalar* L, Index stride_L, const Column<Scalar, kColumns>& 
 template <int kColumns, typename Scalar>
 void SolveTileTransposed(const Scalar* L, Index stride_L, Scalar* x) {
   const Column<Scalar, kColumns> inverse_diagonal = InverseDiagonal<kColumns>(L, stride_L);
-  for (int j = kColumns; j-- > 0;) {
-    for (int k = j + 1; k < kColumns; ++k) x[j] -= L[k + j * stride_L] * x[k];
-    x[j] *= inverse_diagonal[j];
+  Scalar solved[kColumns];
+  for (int i = 0; i < kColumns; ++i) {
+    const int j = kColumns - 1 - i;
+    solved[j] = x[j];
+    // What was solved last comes last, so that the others need not wait for it.
+    for (int k = kColumns - 1; k > j; --k) solved[j] -= L[k + j * stride_L] * solved[k];
+    solved[j] *= inverse_diagonal[j];
+    x[j] = solved[j];
   }
 }
 
@@ -182,6 +187,17 @@ void SolveNarrow(Index rows, Index columns, const Scalar* L, Index stride_L, Sca
   });
 }
 
+/// How far a sweep asks ahead for what it will read: once, of a factor that the near caches cannot
+/// hold, by columns too short for the processor to foresee the next one.
+constexpr Index kTilesAhead = 2;
+
+/// Of a column, which may lie outside of all memory there is.
+template <int kRows, typename Scalar>
+void Prefetch(const Scalar* column) {
+  constexpr int kCacheLine = 64 / sizeof(Scalar);
+  for (int row = 0; row < kRows; row += kCacheLine) __builtin_prefetch(column + row);
+}
+
 /// x_2 -= L_21 x_1 of the columns of one tile. @param rows Of L_21.
 template <int kColumns, typename Scalar>
 void SubtractColumns(Index rows, const Scalar* L_21, Index stride, const Scalar* x_1, Scalar* x_2) {
@@ -189,7 +205,9 @@ void SubtractColumns(Index rows, const Scalar* L_21, Index stride, const Scalar*
     Eigen::Map<Column<Scalar, num_rows>> target(x_2 + row);
     Column<Scalar, num_rows> sum = target;
     for (int j = 0; j < kColumns; ++j) {
-      sum -= x_1[j] * Eigen::Map<const Column<Scalar, num_rows>>(L_21 + row + j * stride);
+      const Scalar* const L = L_21 + row + j * stride;
+      sum -= x_1[j] * Eigen::Map<const Column<Scalar, num_rows>>(L);
+      Prefetch<num_rows>(L + kTilesAhead * kColumns * stride);
     }
     target = sum;
   });
@@ -218,7 +236,9 @@ void SubtractProducts(Index rows, const Scalar* L_21, Index stride, const Scalar
   for (int j = 0; j < kColumns; ++j) sums[j].setZero();
   const auto add = [&](Index row, const Column<Scalar, kRows>& x) {
     for (int j = 0; j < kColumns; ++j) {
-      sums[j] += Eigen::Map<const Column<Scalar, kRows>>(L_21 + row + j * stride).cwiseProduct(x);
+      const Scalar* const L = L_21 + row + j * stride;
+      sums[j] += Eigen::Map<const Column<Scalar, kRows>>(L).cwiseProduct(x);
+      Prefetch<kRows>(L - kTilesAhead * kColumns * stride);
     }
   };
   const auto x_at = [&](Index row) { return Eigen::Map<const Column<Scalar, kRows>>(x_2 + row); };
