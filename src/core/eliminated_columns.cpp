@@ -87,7 +87,7 @@ void EliminatedColumns::AddTimes(double factor, const Eigen::Ref<const Eigen::Ve
 /// In double precision whatever Y's: contacts at one node differ by less than single rounding.
 // NOLINTNEXTLINE(performance-unnecessary-value-param): a view that is written through
 void EliminatedColumns::Gram(Eigen::Ref<Eigen::MatrixXd> gram) const {
-  Eigen::Map<Eigen::MatrixXd> negative = NegativeProduct(num_columns());
+  Eigen::Map<Eigen::MatrixXd> negative = NegativeProduct(num_columns(), num_columns());
   std::visit(
       [&](const auto& numbers) {
         for (const Block& block : blocks_) {
@@ -104,10 +104,11 @@ void EliminatedColumns::Gram(Eigen::Ref<Eigen::MatrixXd> gram) const {
   PutInGivenOrder(negative, *this, gram);
 }
 
+/// In the other's working memory, so that products of many with one take memory once.
 void EliminatedColumns::TransposeTimes(const EliminatedColumns& other,
                                        // NOLINTNEXTLINE(performance-unnecessary-value-param)
                                        Eigen::Ref<Eigen::MatrixXd> product) const {
-  Eigen::Map<Eigen::MatrixXd> negative = NegativeProduct(other.num_columns());
+  Eigen::Map<Eigen::MatrixXd> negative = other.NegativeProduct(num_columns(), other.num_columns());
   std::visit(
       [&](const auto& numbers) {
         const auto& their_numbers = std::get<std::decay_t<decltype(numbers)>>(other.numbers_);
@@ -119,8 +120,9 @@ void EliminatedColumns::TransposeTimes(const EliminatedColumns& other,
           const auto values = Values(numbers.values, ours);
           const auto their_values = Values(their_numbers.values, *theirs);
           ForParts(ours.num_rows, [&](Index first, Index count) {
-            const auto part = Widened(values.middleCols(first, count), &wide_);
-            const auto their_part = Widened(their_values.middleCols(first, count), &their_wide_);
+            const auto part = Widened(values.middleCols(first, count), &other.wide_);
+            const auto their_part =
+                Widened(their_values.middleCols(first, count), &other.their_wide_);
             SubtractProduct(ours.num_columns, their_part.rows(), count, part.data(), part.rows(),
                             their_part.data(), their_part.rows(),
                             &negative(ours.column, theirs->column), negative.rows());
@@ -131,11 +133,11 @@ void EliminatedColumns::TransposeTimes(const EliminatedColumns& other,
   PutInGivenOrder(negative, other, product);
 }
 
-/// Zeros, by sorted columns; more of them than `size`, as dense kernels write them three at a time.
-Eigen::Map<Eigen::MatrixXd> EliminatedColumns::NegativeProduct(Index size) const {
-  Eigen::Map<Eigen::MatrixXd> negative = sorted_.Shape(num_columns(), size + 2);
+/// Zeros, by sorted columns; more columns in memory, as dense kernels write three at a time.
+Eigen::Map<Eigen::MatrixXd> EliminatedColumns::NegativeProduct(Index rows, Index columns) const {
+  Eigen::Map<Eigen::MatrixXd> negative = sorted_.Shape(rows, columns + 2);
   negative.setZero();
-  return {negative.data(), num_columns(), size};
+  return {negative.data(), rows, columns};
 }
 
 void EliminatedColumns::PutInGivenOrder(const Eigen::Ref<const Eigen::MatrixXd>& negative,

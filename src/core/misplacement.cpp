@@ -25,7 +25,7 @@ std::string DescribeJump(const RigidWorld& world, const std::vector<int>& nodes,
   for (std::size_t i = 0; i < world.surfaces().size(); ++i) {
     const auto surface = static_cast<int>(i);
     const int object = world.ObjectOf(surface);
-    if (world.BodyOf(object) != RigidWorld::kNone) continue;  // moves as contacts have it
+    if (!world.WasPut(object)) continue;
     for (const int node : nodes) {
       const Eigen::Vector3d p_W = x_W.col(node);
       const double jump = world.Displacement(object, p_W, Eigen::VectorXd(), 0.0).norm();

@@ -137,12 +137,16 @@ Vector3d RigidWorld::FreeDisplacement(int object, const Vector3d& p_W, const Eig
   return Displacement(object, p_W, dV, h);
 }
 
+bool RigidWorld::WasPut(int object) const {
+  const auto i = static_cast<std::size_t>(object);
+  return BodyOf(object) == kNone && objects_[i].X_WO.matrix() != X_WO_before_[i].matrix();
+}
+
 bool RigidWorld::AnyMoves() const {
-  if (num_bodies() > 0) return true;
   for (std::size_t i = 0; i < objects_.size(); ++i) {
-    if (!(objects_[i].X_WO.matrix() == X_WO_before_[i].matrix())) return true;
+    if (WasPut(static_cast<int>(i))) return true;
   }
-  return false;
+  return num_bodies() > 0;
 }
 
 void RigidWorld::Advance(const Eigen::VectorXd& dV, double h) {

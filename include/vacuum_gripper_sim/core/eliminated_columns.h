@@ -64,7 +64,7 @@ class EliminatedColumns {
     mutable MatrixMemory<Scalar> sorted, rows;  // of products
   };
   Eigen::Index MostRows() const;  // of a block
-  Eigen::Map<Eigen::MatrixXd> NegativeProduct(Eigen::Index size) const;
+  Eigen::Map<Eigen::MatrixXd> NegativeProduct(Eigen::Index rows, Eigen::Index columns) const;
   void PutInGivenOrder(const Eigen::Ref<const Eigen::MatrixXd>& negative,
                        const EliminatedColumns& other, Eigen::Ref<Eigen::MatrixXd> product) const;
 

@@ -39,7 +39,7 @@ struct LinearSolverParameters {
                                             ///< the memory; iterations make up for it.
   double tolerance{2e-6};                   ///< CG: bound on |r| / |b|, or over what the cup's
                                             ///< weight makes of |b| if that is more. [-] > 0
-  double position_tolerance{1e-8};          ///< CG: a correction by which no node and no body moves
+  double position_tolerance{4e-8};          ///< CG: a correction by which no node and no body moves
                                     ///< farther along any axis is the last one, too. [m] 0 .. 1e-5
   int max_iterations{10};     ///< CG: a solve that needs more has A factorised; about what that
                               ///< costs, in iterations. >= 1

@@ -59,6 +59,8 @@ class RigidWorld {
   Eigen::Vector3d FreeDisplacement(int object, const Eigen::Vector3d& p_W,
                                    const Eigen::VectorXd& dV, double h) const;
 
+  /// Was an object put elsewhere since the last step?
+  bool WasPut(int object) const;
   /// Does any object move in this step: is one free, or put elsewhere since the last one?
   bool AnyMoves() const;
 
