@@ -1,5 +1,5 @@
 // How well this machine keeps time just now: a loop at a rate that sleeps until its next period is
-// due, and then computes for a part of it. What it misses, no node can keep.
+// due, and then computes for a part of it. What it misses, no node that sleeps can keep.
 
 #include <time.h>
 

@@ -36,10 +36,10 @@ std::string SchedulingOfThisThread() {
   }
 }
 
-bool RestWatch::IsRestless(double wait, double now) {
+bool RestWatch::IsRestless(double sleep, double now) {
   const double passed = std::min(now - last_.value_or(now), kLongestStep);
   last_ = now;
-  busy_ = wait > 0.0 ? 0.0 : busy_ + passed;
+  busy_ = sleep > 0.0 ? 0.0 : busy_ + passed;
   return busy_ > kLongestWithoutRest;
 }
 
@@ -65,8 +65,8 @@ int LoopPriority::SetScheduler(int policy, int priority) {
   return sched_setscheduler(0, policy | SCHED_RESET_ON_FORK, &parameters) == 0 ? 0 : errno;
 }
 
-bool LoopPriority::OnWait(double wait, double now) {
-  if (!held_ || !watch_.IsRestless(wait, now)) return false;
+bool LoopPriority::OnSleep(double sleep, double now) {
+  if (!held_ || !watch_.IsRestless(sleep, now)) return false;
   SetScheduler(SCHED_OTHER, 0);
   held_ = false;
   return true;

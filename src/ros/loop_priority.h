@@ -10,15 +10,15 @@ namespace vacuum_gripper_sim {
 /// How Linux schedules the calling thread: "normal", "SCHED_FIFO 50" and the like.
 std::string SchedulingOfThisThread();
 
-/// Says when a loop that should wait between two steps has not done so for a second.
+/// Says when a loop that should sleep between two steps has not done so for a second.
 class RestWatch {
  public:
-  /// Before every wait. @param wait How long it will be. @param now Of any clock. [s]
+  /// Before every sleep. @param sleep How long it will be. @param now Of any clock. [s]
   /// @return True if none was longer than zero for a second. A single stall of the process is none.
-  bool IsRestless(double wait, double now);
+  bool IsRestless(double sleep, double now);
 
  private:
-  double busy_{0.0};  // Time without a wait. [s]
+  double busy_{0.0};  // Time without sleep. [s]
   std::optional<double> last_;
 };
 
@@ -27,8 +27,8 @@ class RestWatch {
  priority itself.
 
  SCHED_FIFO goes before all that is scheduled normally, on the loop's core and for as long as it
- does not wait: a loop whose steps take longer than their period would keep everybody else from that
- core. So a loop that has found no time to wait for a second gets normal scheduling for good.
+ does not sleep: a loop whose steps take longer than their period would keep everybody else from
+ that core. So a loop that has found no time to sleep for a second gets normal scheduling for good.
  Threads that it makes begin with normal scheduling.
 
  Whatever the priority, Linux's allowance of 50 us for waking up a normal thread late is cut. */
@@ -44,9 +44,9 @@ class LoopPriority {
   const std::string& refusal() const { return refusal_; }
   /// Whether the thread has it.
   bool held() const { return held_; }
-  /// Before every wait. @param wait How long it will be. @param now Of any clock. [s]
+  /// Before every sleep. @param sleep How long it will be. @param now Of any clock. [s]
   /// @return True if the priority was given up just now.
-  bool OnWait(double wait, double now);
+  bool OnSleep(double sleep, double now);
 
  private:
   int SetScheduler(int policy, int priority);

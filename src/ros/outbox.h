@@ -66,6 +66,8 @@ class Outbox {
     sem_post(&posted_);
   }
 
+  /// Whether all is delivered.
+  bool idle() const { return num_delivered_ == num_posted_; }
   /// What delivering took since it was asked for last, of a core's time. [s]
   double TakeDeliveryTime() { return 1e-9 * static_cast<double>(delivery_time_.exchange(0)); }
 

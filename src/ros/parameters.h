@@ -24,6 +24,7 @@ enum class ActuatorSource { kPoseCommand, kTf };
 struct NodeParameters {
   double rate{0.0};          ///< Steps per second of ROS time; h = 1 / rate. [Hz] > 0
   int realtime_priority{0};  ///< Of the loop's thread, see LoopPriority. 0 .. 99
+  double busy_wait{0.0};     ///< How long the loop stays awake before a step. [s] 0 .. .9 / rate
   std::string world_frame;   ///< Inertial frame the cup is simulated in.
   std::string cup_frame;     ///< Frame of the mount and of the wrench.
   ActuatorSource actuator{ActuatorSource::kPoseCommand};

@@ -4,6 +4,7 @@
 #include <ros/ros.h>
 #include <tf2/exceptions.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <sstream>
@@ -92,17 +93,31 @@ void VacuumGripperNode::Run() {
         break;
     }
     diagnostics_.Update();
-    const ros::WallDuration wait = schedule_.TimeToWait(ros::Time::now());
-    if (priority.OnWait(wait.toSec(), ros::SteadyTime::now().toSec())) {
-      diagnostics_.SetScheduling(SchedulingOfThisThread());
-      outbox_.FollowPoster(false);
-      ROS_WARN(
-          "realtime_priority = %d is given up, scheduled normally from now on: for a second no "
-          "step ended before the next was due, and others would have been kept from the core",
-          parameters_.realtime_priority);
-    }
-    ros::getGlobalCallbackQueue()->callAvailable(wait);
+    Wait(&priority);
   }
+}
+
+/// Until a step is due or messages have come, which it handles. The last busy_wait before a step it
+/// stays awake, unless results still wait for the core that it would keep.
+void VacuumGripperNode::Wait(LoopPriority* priority) {
+  const auto time_left = [&] { return schedule_.TimeToWait(ros::Time::now()).toSec(); };
+  const double busy_wait = ros::Time::isSimTime() ? 0.0 : parameters_.busy_wait;
+  double left = time_left();
+  const bool stays_awake = left > 0.0 && left <= busy_wait && outbox_.idle();
+  double sleep = left > busy_wait ? left - busy_wait : left;
+  if (stays_awake) sleep = 0.0;
+  if (priority->OnSleep(sleep, ros::SteadyTime::now().toSec())) {
+    diagnostics_.SetScheduling(SchedulingOfThisThread());
+    outbox_.FollowPoster(false);
+    ROS_WARN(
+        "realtime_priority = %d is given up, scheduled normally from now on: for a second no "
+        "step ended before the next was due%s, and others would have been kept from the core",
+        parameters_.realtime_priority, busy_wait > 0.0 ? " in busy_wait" : "");
+  }
+  ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(sleep));
+  if (!stays_awake) return;
+  while (left > 0.0 && left <= busy_wait) left = time_left();
+  ros::getGlobalCallbackQueue()->callAvailable();
 }
 
 void VacuumGripperNode::Step(const ros::Time& stamp) {

@@ -11,6 +11,7 @@
 #include "actuator.h"
 #include "diagnostics.h"
 #include "fault_server.h"
+#include "loop_priority.h"
 #include "margin_monitor.h"
 #include "moment.h"
 #include "outbox.h"
@@ -50,6 +51,7 @@ class VacuumGripperNode {
   void SetSetpoint(double gauge_pressure);
   void FollowMountFrame();
   void Reset();  // The cup and the free objects.
+  void Wait(LoopPriority* priority);
   void Step(const ros::Time& stamp);
   const StepResult& AdvanceSimulator(const Command& command);
   void Post(Occasion occasion, const ros::Time& stamp);  // The simulator's state, to be published.

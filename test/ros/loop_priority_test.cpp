@@ -54,7 +54,7 @@ TEST(RestWatch, OneStallIsNoHurry) {
 
 bool IsGivenUp(LoopPriority* priority) {
   double now = 100.0;
-  return Hurry(2.0, &now, [&](double wait, double time) { return priority->OnWait(wait, time); });
+  return Hurry(2.0, &now, [&](double wait, double time) { return priority->OnSleep(wait, time); });
 }
 
 TEST(LoopPriority, ZeroLeavesTheScheduling) {

@@ -30,6 +30,7 @@ WRONG = {
     'margin_rate': [0.0, -1.0],
     'display_rate': [0.0, -1.0],
     'realtime_priority': [-1, 100, 1.5],
+    'busy_wait': [-1.0e-4, 0.0091, float('nan'), 'long'],
     'diagnostic_period': [0.0],
     'ambient_pressure': [0.0, -1.0, 50000.0],
     'initial_position': [[0.0, 0.0], [0.0, 0.0, 'up'], 0.05, [0.0, 0.0, float('inf')]],

@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 """A gripper whose steps three threads share and that wants a priority: all three get it, or none,
-and the thread that publishes stays on the core of the one that steps, or goes where it likes."""
+and the thread that publishes stays on the core of the one that steps, or goes where it likes. Half
+of each period the loop stays awake, and hears what it is told all the same."""
 
 import os
 import pathlib
@@ -12,6 +13,7 @@ import rosgraph
 import rospy
 import rostest
 from diagnostic_msgs.msg import DiagnosticArray
+from std_srvs.srv import Empty
 
 from gripper_client import GripperClient, wait_until
 
@@ -49,6 +51,25 @@ class RealtimeTest(unittest.TestCase):
                 wait_until(lambda: kept_on_a_core() == [{core_of_the_loop()}],
                            'the publishing thread on the core of the one that steps')
         self.assertGreater(len(threads), 3)
+
+    def test_the_loop_stays_awake_for_busy_wait(self):
+        gripper = GripperClient()
+        gripper.connect()
+        uri = rosgraph.Master('/realtime_test').lookupNode('/vacuum_gripper')
+        pid = xmlrpc.client.ServerProxy(uri).getPid('/realtime_test')[2]
+
+        def computed():
+            """By the thread that steps. [s]"""
+            stat = pathlib.Path(f'/proc/{pid}/task/{pid}/stat').read_text(encoding='ascii')
+            ticks = stat.rsplit(')', 1)[1].split()[11:13]
+            return sum(map(int, ticks)) / os.sysconf('SC_CLK_TCK')
+
+        # 5 of 10 ms; a step of this cup takes less than one.
+        before = computed()
+        rospy.sleep(2.0)
+        self.assertGreater(computed() - before, 0.2 * 2.0)
+        rospy.ServiceProxy('/vacuum_gripper/on', Empty)()
+        wait_until(lambda: gripper.seal.setpoint < 0.0, 'a set-point from a service')
 
 
 if __name__ == '__main__':
