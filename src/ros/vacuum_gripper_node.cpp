@@ -110,9 +110,9 @@ void VacuumGripperNode::Wait(LoopPriority* priority) {
     diagnostics_.SetScheduling(SchedulingOfThisThread());
     outbox_.FollowPoster(false);
     ROS_WARN(
-        "realtime_priority = %d is given up, scheduled normally from now on: for a second no "
-        "step ended before the next was due%s, and others would have been kept from the core",
-        parameters_.realtime_priority, busy_wait > 0.0 ? " in busy_wait" : "");
+        "realtime_priority = %d is given up, scheduled normally from now on: for a second steps "
+        "left the loop no time to sleep, and others would have been kept from the core",
+        parameters_.realtime_priority);
   }
   ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(sleep));
   if (!stays_awake) return;
