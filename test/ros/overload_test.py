@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""A gripper asked for two thousand quadratic steps a second, which no machine makes: it says so."""
+"""A gripper asked for ten thousand quadratic steps a second, which no machine makes: it says so."""
 
 import math
 import sys
@@ -11,7 +11,7 @@ from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 
 from gripper_client import GripperClient, wait_until
 
-START_UP = 2000  # steps that do not count: a second of simulated time
+START_UP = 10000  # steps that do not count: a second of simulated time
 
 
 class OverloadTest(unittest.TestCase):
